@@ -83,6 +83,8 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
     table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given, aliases=ALIASES)
     stress, unit = _components(table, order)
+    if not len(stress):
+        raise refused("", "no rows", "a row for each step of each point", table.source)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
     names = table.texts(ID) if table.has(ID) else list(map(str, map(tuple, place.tolist())))

@@ -134,6 +134,7 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
     [
         ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
         ("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,-\n", "line 2, xy: found '-'"),
+        ("step,xx,yy,zz,yz,xz,xy\n", "found no rows; allowed: a row for each step of each point"),
         (
             f"id,step,xx,yy,zz,yz,xz,xy\n{''.join(f'{k},{step},0,0,0,0,0,0' + chr(10) for k, step in STEPS)}",
             "other steps at the point 2 than at 1; allowed: the same steps at each point",
