@@ -25,7 +25,7 @@ from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE
-from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS
+from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS, REPETITIONS
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, DISTANCE, FAILED, NOTHING, STATES, has_units
 from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
@@ -330,6 +330,8 @@ def life_words(dataset: xr.Dataset) -> Iterator[str]:
         return
     if sequence := sequence_words(dataset, read_contact(dataset.attrs[CONTACT]).blocks):
         yield f"sequence of blocks: {sequence}"
+        for kind in CRITERIA.values():
+            yield from _scatter(kind.life.replace(LIFE, REPETITIONS), dataset)
         return
     kinds = [kind for kind in CRITERIA.values() if kind.life and kind.life in dataset]
     for kind in kinds:
@@ -351,7 +353,7 @@ def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
         words = (f"N{p} = {each}" for p, each in zip(PERCENTS, numbers_words(shortest, 2), strict=True))
         which = f" ({life})" * (life not in ("cycles", "FS_cycles"))
         yield f"scatter of the constants, shortest lives{which}: {', '.join(words)}"
-    if (name := life.replace(LIFE, FAILED_SHARE)) in dataset:
+    if LIFE in life and (name := life.replace(LIFE, FAILED_SHARE)) in dataset:
         most = float(dataset[name].max())
         yield f"{dataset[name].long_name}: {f'up to {number_words(most, 2)}' if most else '0 in all draws'}"
 

@@ -79,7 +79,7 @@ def _of_life(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
     """All that is made of a life: by blocks, and of constants that scatter.
 
     Blocks: repetitions of their sequence to a crack, and the share of each load in its damage. Constants that
-    scatter: percentiles of the life, and the probability of a crack before a target.
+    scatter: percentiles of the life, also in repetitions, and the probability of a crack before a target.
     """
     life, start, place = f"{row.life}{end}", row.life.removesuffix(LIFE), end.removeprefix("_")
     words = end.replace("_", " ") + "{shear}" * bool(row.by)
@@ -93,6 +93,10 @@ def _of_life(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
         meaning = f"rounds to a crack{words}, before which {percent} % fail"
         symbol = _indexed("N", row.subscript, place, percent)
         yield Derived(f"{life}_{percent}", symbol, meaning, needs=("scatter",), kind=percent, **of)
+        meaning = f"repetitions to a crack{words}, before which {percent} % fail"
+        symbol = _indexed("N", "seq", row.subscript, place, percent)
+        name = f"{start}{REPETITIONS}{end}_{percent}"
+        yield Derived(name, symbol, meaning, needs=("blocks",), kind=percent, **of)
     symbol, where = _indexed("P", row.subscript, place), f"by the life of a {place}"
     meaning = f"probability of a crack before {{target}} load cycles{row.by},"
     meaning += f" {where if place else 'at the worst point'}"

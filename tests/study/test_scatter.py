@@ -53,6 +53,28 @@ def test_percentiles_are_those_of_the_lives_of_all_draws(tmp_path: Path, more: s
     np.testing.assert_allclose(found.cycles_50, found.cycles, rtol=0.05)
 
 
+def test_sequences_of_blocks_scatter(tmp_path: Path) -> None:
+    loads = """[loads.small]
+    vertices = [[0, 0.5], [0, -0.5]]
+    [loads.large]
+    vertices = [[0, 1], [0, -1]]
+    [[blocks]]
+    load = "small"
+    rounds = 1000
+    [[blocks]]
+    load = "large"
+    rounds = 10
+    """
+    text = f"{CONTACT}normal_force = 200\n{AXES}{loads}{SAMPLE}{RANGE}"
+    found = swtstudy.run(Study.from_text(text), tmp_path / "blocks.nc")
+    rounds = xr.DataArray([1000.0, 10.0], dims="load")
+    each = [1.0 / (rounds / draw.cycles(found.SWT)).sum("load") for draw in draws_of(found)]
+    for percent in (10, 50, 90):
+        ranked = np.sort([one.values for one in each], axis=0)[int(np.ceil(0.64 * percent)) - 1]
+        np.testing.assert_allclose(found[f"repetitions_{percent}"], ranked, rtol=1e-9)
+    assert re.search(r"shortest lives \(repetitions\): N10 = \d", repr(found.swt))
+
+
 @pytest.mark.slow
 def test_draws_have_the_covariance(tmp_path: Path) -> None:
     draws = draws_of(results(tmp_path, SAMPLE.replace("64", "4096") + COVARIANCE))

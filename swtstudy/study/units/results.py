@@ -73,7 +73,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     for row in derived(grid, asked):
         of_points = (*grid.dims, *asked.variables.get(row.of, ())) if row.of else grid.at_rest_dims
         dims = found[row.of] if row.of in LIVES else of_points
-        found[row.name] = tuple(dim for dim in dims if dim != "load" or row.kind != REPETITIONS)
+        found[row.name] = tuple(dim for dim in dims if dim != "load" or REPETITIONS not in row.name)
     return found
 
 
@@ -93,16 +93,19 @@ def usual_measure(dataset: xr.Dataset) -> str:
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:
     """Results of a grid of real contacts, with SWT, lives and all that has a unit."""
     found = dataset.rename({old: new for old, new in NORMALISED.items() if old in dataset.data_vars})
-    ranks: dict[str, xr.DataArray] = {}
+    ranks: dict[tuple[str, bool], xr.DataArray] = {}
     for row in derived(grid, asked):
         if row.kind in (REPETITIONS, SHARE):
             values = _of_blocks(found[row.of], row.kind, grid)
         elif row.kind in RANKS:
-            if row.of not in ranks:
+            key = row.of, REPETITIONS in row.name
+            if key not in ranks:
                 kind = CRITERIA[row.criterion]
                 of = found[f"{kind.name}{row.of.removeprefix(kind.life)}"]
-                ranks[row.of] = _of_constants(of, grid, found, row.criterion, drawn=True)
-            values = ranks[row.of].isel(rank=RANKS.index(row.kind))
+                if key[1]:  # all loads together
+                    of = (of if "load" in of.dims else of.expand_dims("load")).transpose(..., "load")
+                ranks[key] = _of_constants(of, grid, found, row.criterion, drawn=True, in_turn=key[1])
+            values = ranks[key].isel(rank=RANKS.index(row.kind))
         else:
             stresses = getattr(grid, row.needs[0]) if row.needs and row.kind != LIFE else ()
             scale = grid.of_bodies(scale_of(row.scale, stresses))
@@ -142,7 +145,12 @@ def without_units(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def _of_constants(
-    value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str, drawn: bool
+    value: xr.DataArray,
+    grid: PhysicalGrid,
+    dataset: xr.Dataset,
+    criterion: str,
+    drawn: bool,
+    in_turn: bool = False,
 ) -> xr.DataArray:
     """Lives at values of a criterion, or ranks of lives, by the constants of each body.
 
@@ -156,11 +164,14 @@ def _of_constants(
         The name of the criterion.
     drawn
         True for the ranks of the lives by each draw of constants.
+    in_turn
+        True for ranks of repetitions of the sequence of blocks, instead of rounds of each load; the loads are
+        the last dimension.
 
     Returns
     -------
     DataArray
-        Of the value's shape, with the ranks before it if there are.
+        Of the value's shape, with the ranks before it if there are, and without the loads in turn.
     """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
     names = COUNTED if COUNTED.keys() <= {*dataset.data_vars} else ()
@@ -169,18 +180,18 @@ def _of_constants(
     both, dim = grid.of_both("poisson_ratio"), grid.dimension("poisson_ratio")
     # Estimated constants differ from one Poisson ratio to another.
     several = len({grid.constants(criterion, ratios) for ratios in both}) > 1
-    parts = []
+    rounds, parts = _rounds(grid) if in_turn else None, []
     for k, ratios in enumerate(both if several else both[:1]):
         at = {dim: [k]} if several else {}
         first, own, *counted = (each.isel(at).values for each in (is_first, value, *shares))
         one, other = grid.curves(criterion, ratios, drawn)
         of_bodies = [
-            _ranks(curve, own, counted, grid.target_life) if drawn else curve.lives(own, counted)
+            _ranks(curve, own, counted, grid.target_life, rounds) if drawn else curve.lives(own, counted)
             for curve in ([one] if np.array_equal(one, other) else [one, other])
         ]
-        parts.append(np.where(first, of_bodies[0], of_bodies[-1]))
+        parts.append(np.where(first[..., 0] if in_turn else first, of_bodies[0], of_bodies[-1]))
     found = np.concatenate(parts, drawn + value.get_axis_num(dim)) if several else parts[0]
-    return xr.DataArray(found, dims=(*("rank",) * drawn, *value.dims))
+    return xr.DataArray(found, dims=(*("rank",) * drawn, *value.dims[: len(value.dims) - in_turn]))
 
 
 def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArray:
@@ -188,12 +199,16 @@ def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArra
 
     D = Σ n_k / N_k, with n_k rounds of load k in the sequence and N_k rounds of it alone to a crack.
     """
-    names = map(str, grid.values("load"))
-    numbers = [sum(each.rounds for each in grid.blocks if each.load == name) for name in names]
-    several = "load" in life.dims
+    numbers, several = _rounds(grid), "load" in life.dims
     damage = 1.0 / life * (xr.DataArray(numbers, dims="load") if several else numbers[0])
     whole = damage.sum("load", skipna=False) if several else damage
     return 1.0 / whole if kind == REPETITIONS else damage / whole
+
+
+def _rounds(grid: PhysicalGrid) -> FloatArray:
+    """Rounds of each load in a repetition of the sequence of blocks."""
+    names = map(str, grid.values("load"))
+    return np.array([sum(each.rounds for each in grid.blocks if each.load == name) for name in names])
 
 
 def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
@@ -239,17 +254,28 @@ def _ends(values: FloatArray) -> str:
     return " to ".join(dict.fromkeys(numbers_words((values.min(), values.max()), 2)))
 
 
-def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], target: float) -> FloatArray:
-    """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...)."""
-    flat = values.ravel()
-    of_each = [each.reshape(len(flat), *each.shape[-2:]) for each in counted]
+def _ranks(
+    curve: LifeCurve, values: FloatArray, counted: list[FloatArray], target: float, rounds: FloatArray | None
+) -> FloatArray:
+    """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...).
+
+    With the rounds of loads, the last dimension of the values, lives are repetitions of them all.
+    """
+    together = 1 if rounds is None else len(rounds)
+    flat = values.reshape(-1, together)
+    of_each = [each.reshape(*flat.shape, *each.shape[-2:]) for each in counted]
     found = np.full((len(PERCENTS) + 1, len(flat)), np.nan)
-    size = max(1, _AT_ONCE // (len(curve.level) * (of_each[0][0].size if of_each else 1)))
+    cycles = of_each[0][0].size if of_each else together
+    size = max(1, _AT_ONCE // (len(curve.level) * cycles))
     for begin in range(0, len(flat), size):  # in parts of the points, so that memory is bounded
         part = slice(begin, begin + size)
-        known = np.isfinite(flat[part])
-        each = curve.lives(flat[part][known], [number[part][known] for number in of_each])
+        known = np.isfinite(flat[part]).all(axis=1)
+        own = [number[part][known].reshape(-1, *number.shape[-2:]) for number in of_each]
+        each = curve.lives(flat[part][known].ravel(), own)
+        if rounds is not None:
+            damage = (rounds / each.reshape(len(each), -1, together)).sum(axis=-1)
+            each = np.divide(1.0, damage, out=np.full_like(damage, np.inf), where=damage > 0.0)
         # Without interpolation: a life may be infinite.
         ranks = np.quantile(each, np.array(PERCENTS) / 100.0, axis=0, method="inverted_cdf")
         found[:, np.flatnonzero(known) + begin] = [*ranks, (each < target).mean(axis=0)]
-    return found.reshape(-1, *values.shape)
+    return found.reshape(-1, *(values.shape if rounds is None else values.shape[:-1]))
