@@ -79,8 +79,11 @@ def plot(
       swtstudy plot results/figure4.nc --at normal_amplitude=0.75
       swtstudy plot results/contour.nc --kind heatmap --y critical_angle
     """
+    import numpy as np
+
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
+    from swtstudy.results.evaluate import quantity
     from swtstudy.study.figure import FigureLayout
     from swtstudy.vocabulary.quantities import MISSING
 
@@ -95,6 +98,9 @@ def plot(
     given = {key: value for key, value in own.items() if value not in (None, ())}
     layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
     save_figure(draw(dataset, layout, style, width), target, style)
+    for y in layout.y:
+        if not np.isfinite(quantity(dataset, y)).any():
+            click.echo(f"{archive}: {y} is finite at no point of the figure", err=True)
     missing = int((dataset.status == MISSING).sum())
     if missing:
         click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)

@@ -15,8 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swtstudy.figures.labels import NO_LABELS, Labels
-from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import Style, arrow, entitle, stroke
+from swtstudy.figures.sheet import Sheet, Width, add_legend
+from swtstudy.figures.style import DASHES, Style, arrow, entitle, stroke
 from swtstudy.figures.words import show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
@@ -94,10 +94,10 @@ def draw_load(
             share = np.arange(cycles.shape[1]) / cycles.shape[1]
             course.plot(share, cycles.T, **stroke(f"C{column}", linewidth=0.5, alpha=0.25))
         for column, each in enumerate(("normal", "tangential", "bulk stress")[: loads.shape[1]]):
-            course.plot(phase, loads[:, column], **stroke(f"C{column}", label=each + units[column]))
+            look = stroke(f"C{column}", DASHES[column], label=each + units[column])
+            course.plot(phase, loads[:, column], **look)
         course.set(xlabel="share of a cycle", ylabel="loads")
         entitle(course, "course")
-        course.legend(frameon=False)
         path.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
         path.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
         entitle(path, "path")
@@ -113,6 +113,7 @@ def draw_load(
             which = f" at $\\mu$ = {slope:g}" * any(units)
             entitle(margin[0], f"friction, at most {np.nanmax(share):.2f}{which}")
         figure.suptitle(as_text(f"{name}: {signal.words}" if signal else name))
+        add_legend(figure)
     return figure
 
 
@@ -204,8 +205,9 @@ def draw_shape(
         words = [given] if given else [place_words("profile", str(pressed)), *numbers]
         if isinstance(pressed, TabulatedProfile):
             sketch.plot(pressed.radius, pressed.height - 1.0, ".", ms=3, color="C1", label="table")
+            sketch.legend(loc="lower right")
             off = pressed.deviation
-            missed = labels["height"].number(off, 2) if labels else f"{off:.1e} δ0"
+            missed = labels["height"].number(off, 2) if labels else f"{off:.1e} $\\delta_0$"
             words.append(f"{pressed.radius.size} points, missed by {missed} at most")
         figure.suptitle(("\n" if labels else ",  ").join(words))
     return figure
@@ -225,18 +227,18 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
         arrow(axes, (0.0, 0.0), end, lw=1.4)
         axes.annotate(word, end, offset, textcoords="offset points")
     plane = profile.plane
-    normal, tangential = ("line load $P$", "$Q$") if plane else ("depth $\\delta$, force", "$u$, force")
+    normal, tangential = ("line load $P$", "$Q$") if plane else ("$\\delta$ or force", "$u$ or force")
     loads = (
-        ((0.0, 0.5), (0.0, 1.0), (0.04, 0.8), f"normal load: {normal}"),
+        ((0.0, 0.5), (0.0, 1.0), (0.04, 0.8), f"normal: {normal}"),
         ((-0.45, 0.3), (-0.85, 0.3), (-0.97, 0.38), f"tangential: {tangential}"),
     )
     for *places, words in loads:
         end, start, at = ((reach * x, top * y) for x, y in places)
-        arrow(axes, start, end, color="C3", lw=2.0)
-        axes.annotate(words, at, color="C3", fontsize="small")
+        arrow(axes, start, end, lw=2.0)
+        axes.annotate(words, at, fontsize="small")
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
-    entitle(axes, f"f, undeformed, {'sunk by δ0' if plane else 'at the depth δ0'}")
+    entitle(axes, rf"$f$, undeformed, {'sunk by' if plane else 'at the indentation'} $\delta_0$")
 
 
 def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], labels: Labels) -> None:
@@ -257,7 +259,8 @@ def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], label
         arrow(axes, (first, level), (first + length, level), "<|-|>", lw=0.8, mutation_scale=6.0)
         tall = labels["height"].number(2.0 * height, 3) if labels else f"{2.0 * height:.3g} $\\delta_0$"
         words = f"$\\lambda$, height $2h$ = {tall}"
-        axes.annotate(words, (first, level + 0.03), ha="center", va="bottom", fontsize="small")
+        at = first + 0.5 * length, level + 0.03
+        axes.annotate(words, at, ha="center", va="bottom", fontsize="small")
 
 
 def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> None:
@@ -278,7 +281,8 @@ def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> N
         other.set_ylim(axes.get_ylim())
         other.grid(False)
         show_units(other, (None, "pressure"), labels)
-    entitle(axes, "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0")
+    plain = "line load, and pressure at its mean"
+    entitle(axes, plain if profile.plane else r"springs, and pressure at $\delta_0$")
     axes.legend(frameon=False, loc="upper left")
 
 

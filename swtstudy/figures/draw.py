@@ -8,12 +8,12 @@ from string import ascii_uppercase
 
 import xarray as xr
 
-from swtstudy.figures.lines import draw_lines, hue_scale
+from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, entitle, styled
 from swtstudy.figures.surfaces import draw_maps
-from swtstudy.figures.words import flag_words, parts_of, quantity_words, tick_angles, title_words
+from swtstudy.figures.words import flag_words, parts_of, quantity_words, title_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
@@ -26,8 +26,6 @@ from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import require
 from swtstudy.vocabulary.wording import axis_words
 
-#: Width of a colour bar on a screen, inches.
-_SCALE_WIDTH = 1.5
 #: Kinds of figures that are drawn elsewhere.
 _DRAWN = {"scatter": draw_scatter, "histogram": draw_histogram}
 
@@ -123,7 +121,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
     lines, upright = FIGURES[layout.kind].of == "lines", layout.kind == "life"
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), count, width)
-    figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
+    figure = sheet.figure(bool(scale) or not lines)
     shared = {"share_x": "row", "share_y": "all"} if upright else {"share_y": "row" if lines else "all"}
     axes = sheet.panels(figure, **shared)
     for row, y in enumerate(layout.y):
@@ -151,9 +149,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             title = title_words(values, y) if len(layout.y) > 1 else ""
             entitle(one, f"{letter}  {',  '.join(filter(None, (title, place)))}".strip())
     if scale and layout.hue:
-        values = dataset[layout.hue]
-        bar = figure.colorbar(scale, ax=axes, label=axis_words(layout.hue, values.attrs), pad=0.02)
-        tick_angles(bar.ax.yaxis, values)
+        add_scale(figure, axes, scale, dataset[layout.hue])
     return figure
 
 

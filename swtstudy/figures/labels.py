@@ -33,7 +33,7 @@ class Label(NamedTuple):
 
     def number(self, value: float, digits: int = 4) -> str:
         """A value with its unit."""
-        return f"{self.scale * value:.{digits}g}{self.unit}"
+        return f"{self.scale * value:.{digits}g}{self.unit}".replace("-", "−")
 
 
 #: By the name of a variable.

@@ -11,6 +11,7 @@ from matplotlib import colormaps, rcParams
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgba
+from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
@@ -21,6 +22,7 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
+from swtstudy.vocabulary.wording import axis_words
 
 #: Markers at the point where a regime begins; a regime without s has it at the last point before.
 _MARKERS = dict(zip(REGIMES, "D^osxX", strict=True))
@@ -50,6 +52,12 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
     return ScalarMappable(norm, ListedColormap(colours))
 
 
+def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, values: xr.DataArray) -> None:
+    """Add the scale of `hue_scale` beside the panels of a figure."""
+    bar = figure.colorbar(scale, ax=axes, label=axis_words(str(values.name), values.attrs), pad=0.02)
+    tick_angles(bar.ax.yaxis, values)
+
+
 def draw_lines(
     axes: Axes, panel: xr.Dataset, y: str, layout: FigureLayout, scale: ScalarMappable | None
 ) -> None:
@@ -76,8 +84,8 @@ def draw_lines(
         look: dict[str, Any] = {"markevery": 0.1}
         if scale:
             look = stroke(scale.to_rgba(part[layout.hue].item()))
-        elif words:
-            look["label"] = words
+        elif words or "early" in part:
+            look["label"] = words or "constants as given"
         _draw_line(axes, part, panel.value, y, layout, look)
     if not np.isfinite(panel.value).any():
         axes.text(0.5, 0.5, "no value", ha="center", va="center", color="0.3", transform=axes.transAxes)
@@ -144,19 +152,19 @@ def may_jump(name: str) -> bool:
 def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     """Indices of the points of a curve that another maximum begins at.
 
-    A step is a jump if it is a fair share of the range of the curve, and much longer than steps beside it in
-    its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
+    A step is a jump if it is a fair share of the largest value, which the steps of a tolerance are not, and
+    much longer than steps beside it in its direction: a steep part of a curve has steps of its length there,
+    a point between two jumps has not.
     """
     step = np.diff(curve)
     if name == "critical_angle":
         step = (step + 90.0) % 180.0 - 90.0  # a plane has no direction
-    known = curve[np.isfinite(curve)]
+    known = np.abs(curve[np.isfinite(curve)])
     if len(known) < 3:
         return np.array([], dtype=np.intp)
     before, after = np.append(0.0, step[:-1]), np.append(step[1:], 0.0)
     beside = np.fmax(np.fmax(before * np.sign(step), after * np.sign(step)), 0.0)
-    least = max(0.02 * np.ptp(known), 1e-6 * np.abs(known).max())  # a constant has a range of rounding
-    return np.flatnonzero((np.abs(step) > least) & (np.abs(step) > 3.0 * beside)) + 1
+    return np.flatnonzero((np.abs(step) > 0.02 * known.max()) & (np.abs(step) > 3.0 * beside)) + 1
 
 
 def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str]) -> None:
@@ -175,7 +183,8 @@ def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str]]) -> Non
     without = np.array([all(name in WITHOUT_S for name in names) for names in zip(*regimes, strict=True)])
     if not without[-1] or without.all():
         return
-    low, (first, high) = float(x[np.flatnonzero(~without)[-1]]), axes.get_xlim()
+    first, high = axes.set_xlim(axes.get_xlim())  # the shade would widen them
+    low = float(x[np.flatnonzero(~without)[-1]])
     axes.axvspan(low, high, color="0.93", zorder=0)
     middle = (low * high) ** 0.5 if axes.get_xscale() == "log" else 0.5 * (low + high)
     words = " or ".join(dict.fromkeys(line[-1].replace("_", " ") for line in regimes))
@@ -207,7 +216,7 @@ def mark_points(axes: Axes, x: ArrayLike, y: ArrayLike, words: str) -> None:
     """White dots with a black rim, seen on dark and on light, on points that are outside of the model."""
     if np.size(x):
         look = dots("black", 0.8, markerfacecolor="white", markeredgewidth=0.6)
-        axes.plot(x, y, label=words, zorder=4, clip_on=False, **look)
+        axes.plot(x, y, label=words, zorder=4, **look)
 
 
 def _scale_axes(axes: Axes, x: xr.DataArray, values: xr.DataArray, layout: FigureLayout) -> None:
@@ -215,8 +224,10 @@ def _scale_axes(axes: Axes, x: xr.DataArray, values: xr.DataArray, layout: Figur
     upright = layout.kind == "life"
     own, other = ("y", "x") if upright else ("x", "y")
     low, high = float(x.min()), float(x.max())
-    margin = 0.0 if high > low else 0.1 * abs(low) or 1.0
-    axes.set(**{f"{own}lim": (low - margin, high + margin)})
+    # Also where a line has no value; with room for the points of few.
+    axes.update_datalim([(low, low), (high, high)], updatex=not upright, updatey=upright)
+    margin = 0.03 if x.size <= _FEW else 0.0
+    axes.margins(x=None if upright else margin, y=margin if upright else None)
     words = flag_words(values)
     if not upright:
         tick_flags(axes, words)

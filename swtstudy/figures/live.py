@@ -45,9 +45,9 @@ class LiveFigure:
     def __init__(self) -> None:
         with styled():
             # Its own layout: matplotlib's would cost as much as everything else that is drawn.
-            self.figure = Figure((13.5, 4.2), dpi=80)
+            self.figure = Figure((13.5, 4.6), dpi=80)
             self.figure.subplots(1, 3)
-            self.figure.subplots_adjust(left=0.055, right=0.99, bottom=0.13, top=0.93, wspace=0.25)
+            self.figure.subplots_adjust(left=0.055, right=0.99, bottom=0.22, top=0.94, wspace=0.25)
         self._canvas = FigureCanvasAgg(self.figure)
 
     def redraw(self, **parameters: object) -> xr.Dataset:

@@ -284,11 +284,16 @@ def draw_slip(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
         ends = [float(dataset.stick_left)] * both_sides + [float(dataset.stick_right)]
         handles.append(_guide(axes, ends, label="always sticks", linestyle=_DOTTED, color="black")[-1])
     _mark_over_time(axes, dataset, 0.95, 0.6)
-    # Beneath the axis with its label, by its distance in letters.
-    below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
-    axes.legend(handles=handles, ncols=3, handlelength=1.4, columnspacing=1.0, fontsize="small", **below)
+    _add_legend(axes, handles=handles, handlelength=1.4)
     show_units(axes, (None, "r"), labels)
     entitle(axes, "stick and slip over the cycle")
+
+
+def _add_legend(axes: Axes, **own: Any) -> None:
+    """Add a legend beneath the label of the horizontal axis, by its distance in letters."""
+    below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
+    look: dict[str, Any] = {"ncols": 3, "columnspacing": 1.0, "fontsize": "small", **own}
+    axes.legend(**look, **below)
 
 
 def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], factor: float, words: str) -> None:
@@ -297,7 +302,7 @@ def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], facto
     for number, colour, dashes in zip(dataset.instant.values, cycle(_INSTANTS), cycle(DASHES), strict=False):
         one = dataset.sel(instant=number)
         along = one[one[name].dims[0]]
-        axes.plot(along, one[name], **stroke(colour, dashes, label=str(number)))
+        axes.plot(along, one[name], **stroke(colour, dashes, label=f"instant {number}"))
         bounds = np.outer(one[bound], (factor, -factor))
         axes.plot(along, bounds, **stroke(colour, linewidth=0.7, alpha=0.45))
     _guide(axes, 0.0, zorder=0)
@@ -308,8 +313,8 @@ def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], facto
 def draw_springs(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """The memory diagram: the tangential force of the springs between its bounds."""
     _draw_bounded(axes, dataset, ("force", "compression"), 1.0, r"thin: $\pm w$")
-    small: dict[str, Any] = {"fontsize": "small", "title_fontsize": "small"}
-    axes.legend(title="instant", handlelength=2.0, loc="upper right", **small)
+    _add_legend(axes, ncols=2)
+    axes.margins(y=0.13)  # room for the words in the corner
     axes.set_xlim(0.0, 1.05 * float(dataset.largest_radius))
     axes.set(xlabel=r"$\xi/a_H$", ylabel=f"${dataset.force.attrs['symbol']}$")
     show_units(axes, ("r", None), labels)
@@ -321,7 +326,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) 
     mu = float(dataset.friction)
     _draw_bounded(axes, dataset, ("traction", "pressure"), mu, r"thin: $\pm\mu p$;  dashed: $x$ of (E)")
     # The pressure is unbounded next to a sharp edge, which would set the scale.
-    highest = 1.2 * mu * float(np.quantile(dataset.pressure, 0.995)) + 1e-3
+    highest = 1.3 * mu * float(np.quantile(dataset.pressure, 0.995)) + 1e-3
     largest = 1.08 * float(dataset.largest_radius)
     axes.set(xlim=(-largest, largest), ylim=(-highest, highest))
     _guide(axes, float(dataset.shown_x), True, color="black", linestyle=_DASHED)
@@ -395,7 +400,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> Non
         _guide(axes, (-radius, radius), True, linestyle=dashes)
         if radius > 0.0:
             axes.text(radius, height * top, words, va="center", bbox={**_BOX, "pad": 0.5}, **small)
-    axes.plot(float(dataset.shown_x), found, clip_on=False, **dots("black", 1.75))
+    axes.plot(float(dataset.shown_x), found, **dots("black", 1.75))
     axes.set(xlim=(-1.2 * largest, 1.2 * largest), ylim=(0.0, 1.45 * top), xlabel="$x/a_H$")
     over = r"\mathrm{swt}/\mathrm{SWT}_0" if criterion == SWT else CRITERIA[criterion].over_unit
     axes.set_ylabel(f"${over}$")
@@ -445,10 +450,10 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
         # The force that friction bears has the unit of the tangential force.
         axes.plot(time, sign * scale[1] * dataset.normal_force, **look)
     _guide(axes, 0.0, zorder=0)
-    axes.set_ylim(limits(np.concatenate([normal.values, tangential.values]), 0.08, 0.34))
+    axes.set_ylim(limits(np.concatenate([normal.values, tangential.values]), 0.08, 0.24))
     draw_time_axis(axes, time)
     _mark_over_time(axes, dataset, 0.94, 0.35)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=3, fontsize="small")
+    _add_legend(axes)
     unit = labels[names[0]].unit.strip() if labels else ""
     axes.set_ylabel(f"force ({unit})" if unit else "")
     entitle(axes, "forces over the cycle" + (r", dotted: $\pm\mu F_N$" if labels else ""))

@@ -56,6 +56,8 @@ _ACROSS = {"column": 1, "page": 3}
 #: Size of a panel on a screen, and the width that panels side by side have there at most, inches.
 PANEL = (4.0, 3.2)
 _SCREEN = 13.5
+#: Width of a scale of colours on a screen, inches.
+_SCALE = 1.5
 
 
 @dataclass(frozen=True)
@@ -106,13 +108,13 @@ class Sheet:
         each = min(0.85 + 0.45 * WIDTHS[self.width or "page"] / across, 8.0 / INCH)
         return max(each, self.least_height) * self.rows * -(-self.count // across)
 
-    def figure(self, beside: float = 0.0) -> Figure:
-        """An empty figure; on a screen it has so many inches more in width, for scales beside the panels."""
+    def figure(self, beside: bool = False) -> Figure:
+        """An empty figure; on a screen it is wider where a scale is to stand beside the panels."""
         across = self.across
         if self.width is not None:
             return new_figure((WIDTHS[self.width], self._height(across)), self.width)
         height = self.panel[1] * self.rows * -(-self.count // across)
-        return new_figure((self.panel[0] * across + beside, height))
+        return new_figure((self.panel[0] * across + _SCALE * beside, height))
 
     @contextmanager
     def drawn(
@@ -179,9 +181,9 @@ def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
     return figure
 
 
-#: A word with the blanks before it; a formula between $ is one word, also with the value that it has. No
+#: A word with the blanks before it; a formula between $ is one word, with its value and its unit. No
 #: formula begins with a dollar behind a backslash.
-_WORD = re.compile(r"\s*(?:\\\$|\$(?:\\\$|[^$])*\$|[^\s$])+(?: = \S+)?")
+_WORD = re.compile(r"\s*(?:\\\$|\$(?:\\\$|[^$])*\$|[^\s$])+(?: = \S+(?:(?: [^\s$,]+){1,2}(?:,|$))?)?")
 #: Texts with fewer signs fit into the panels of a screen.
 _LONG = 30
 
@@ -274,8 +276,9 @@ def add_legend(figure: Figure, loops: Mapping[str, Loop] | None = None) -> None:
     if not handles:
         return
 
-    def rank(label: str) -> tuple[bool, bool]:
-        return handles[label].get_linestyle() == "None", handles[label].get_zorder() < Line2D.zorder
+    def rank(label: str) -> tuple[bool, bool, float]:
+        order = handles[label].get_zorder()
+        return handles[label].get_linestyle() == "None", order < Line2D.zorder, order
 
     labels = sorted(handles, key=rank)
     look: dict[str, Any] = {}

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.colors import to_rgba
 from numpy.typing import NDArray
 
-from swtstudy.figures.lines import mark_points
+from swtstudy.figures.lines import add_scale, hue_scale, mark_points
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
 from swtstudy.figures.style import COLOURS, Style, dots, entitle, stroke
 from swtstudy.figures.words import flag_words, is_life, parts_of, quantity_words, tick_angles, tick_flags
@@ -34,8 +34,9 @@ _HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx")
 def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """Points of the quantities over every sampled parameter, a panel each."""
     names = [str(name) for name in dataset.coords if name in AXES and dataset[name].dims == (SAMPLE,)]
+    scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), len(names), width)
-    figure = sheet.figure()
+    figure = sheet.figure(bool(scale))
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
         whole = quantity(dataset, y)
@@ -43,13 +44,16 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
             looks = zip(parts_of(dataset, layout.hue), cycle(_SHADES), cycle(_POINTS), strict=False)
             for (label, part), shade, marker in looks:
                 drawn, x = quantity(part, y), part[name].values
+                look: dict[str, Any] = {"color": shade, "marker": marker, "mew": 0}
+                if scale:
+                    look |= {"color": scale.to_rgba(part[layout.hue].item()), "marker": "o"}
                 if x.dtype.kind not in "fiu":
                     words, x = np.unique(x.astype(str), return_inverse=True)
                     one.set_xticks(range(len(words)), [place_words(name, str(word)) for word in words])
                 # Points of a cloud are the fainter the more there are; in the legend they are to be seen.
                 alpha = min(1.0, (100 / drawn.size) ** 0.5)
-                one.plot(x, drawn.values, **dots(shade, 0.6, marker=marker, mew=0, alpha=alpha))
-                one.plot([], [], label=label, **dots(shade, 1.4, marker=marker, mew=0))
+                one.plot(x, drawn.values, **dots(size=0.6, alpha=alpha, **look))
+                one.plot([], [], label="" if scale else label, **dots(size=1.4, **look))
                 if layout.validity:
                     out = outside(part, drawn)
                     mark_points(one, x[out.values], drawn.values[out.values], out.attrs["long_name"])
@@ -59,6 +63,8 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
             if is_life(whole.attrs):
                 one.set_yscale("log")
         sheet.label_left(axes[row], quantity_words(whole, y))
+    if scale:
+        add_scale(figure, axes, scale, dataset[layout.hue])
     return figure
 
 
@@ -85,8 +91,9 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour}
                 look |= {"histtype": "stepfilled", "linestyle": "-", "hatch": hatch}
                 one.hist(values, edges, label=words if alone else label, **look)
-                for place, dashes in zip(places, _PERCENTILES.values(), strict=False):
+                for place, (share, dashes) in zip(places, _PERCENTILES.items(), strict=False):
                     one.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
+                    one.plot([], [], label=f"{share} % lie below", **stroke("0.3", dashes, linewidth=1.4))
             entitle(one, "\n".join(filter(None, lines)))
             one.set_xlabel(quantity_words(whole, y))
             if is_life(whole.attrs):
@@ -142,10 +149,11 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
                 value, low, high = (one[f"{key}{end}"].values for end in ("", "_low", "_high"))
                 error, places = np.maximum([value - low, high - value], 0.0), at + 0.4 * (number - 0.5)
                 # A legend would not know the line style of a container of bars.
-                panel.bar(places, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
+                panel.bar(places, value, 0.38, color=_SHADES[number]).patches[0].set_label(words)
                 panel.errorbar(places, value, error, **stroke(dashes="none", elinewidth=1.2, capsize=2.5))
             panel.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
-            panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
+            turned = {"rotation": 30, "ha": "right", "rotation_mode": "anchor"} if width else {}
+            panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values], **turned)
             panel.grid(False, axis="x")
             where = [place_words(name, columns[name][column].item(), columns[name].attrs) for name in axes]
             entitle(panel, ", ".join(where if row == 0 else []))

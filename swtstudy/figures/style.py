@@ -57,9 +57,9 @@ def stroke(color: Any = "black", dashes: Any = "-", **own: Any) -> dict[str, Any
 
 
 def dots(color: Any = "black", size: float = 1.0, **own: Any) -> dict[str, Any]:
-    """The look of points without a line, so many times as large as the style's markers."""
+    """The look of points without a line, so many times as large as the style's markers; no frame cuts it."""
     own = {"marker": "o", "markersize": size * matplotlib.rcParams["lines.markersize"], **own}
-    return {"color": color, "linestyle": "none", **own}
+    return {"color": color, "linestyle": "none", "clip_on": False, "in_layout": False, **own}
 
 
 def arrow(axes: Axes, start: Any, end: Any, ends: str = "-|>", color: Any = "black", **own: Any) -> None:

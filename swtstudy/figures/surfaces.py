@@ -18,14 +18,17 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
 from swtstudy.figures.words import flag_words, is_life, power_words, tick_angles, tick_names
+from swtstudy.results.evaluate import words_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.choices import WITHOUT_S
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, coordinate_words
 
@@ -33,6 +36,8 @@ from swtstudy.vocabulary.wording import as_text, coordinate_words
 _LEVELS = 13
 #: Panels have a scale of colours each where one fills less than this share of their common one.
 _COMMON = 0.15
+#: Width by which borders of regimes are smoothed, as a share of the points, and points beyond the frame.
+_SMOOTHED, _PAD = 0.04, 6
 #: Most dots across a map, and up: more would hide it.
 _MOST = 32
 
@@ -74,8 +79,8 @@ def draw_maps(
     look = _colours(surfaces, layout.kind)
     draw = _draw_cells if not is_contour else _draw_areas if names else draw_contours
     for one, panel, surface in zip(axes, panels, surfaces, strict=True):
-        one.set_facecolor("0.8")  # where nothing is known
         one.grid(False)
+        _mark_unknown(one, panel)
         if layout.regimes:
             mark_borders(one, panel.regime)
         filled = draw(one, surface, look)
@@ -84,12 +89,28 @@ def draw_maps(
             tick_angles(one.yaxis, surface[layout.vertical])
         if layout.validity:
             mark_cells(one, panel.outside, is_contour)
+    if not np.isfinite(ends).any():
+        return
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
     if life and is_contour:
         bar.ax.yaxis.set_major_formatter(lambda value, _: power_words(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
+
+
+def _mark_unknown(axes: Axes, panel: xr.Dataset) -> None:
+    """Hatch the ground of a panel, which is seen where there is no value, and say why in the legend."""
+    unknown = ~np.isfinite(panel.value.values)
+    if not unknown.any():
+        return
+    why = {""}
+    if "regime" in panel and flag_words(panel.regime):
+        regimes = words_of(panel, "regime").broadcast_like(panel.value).transpose(*panel.value.dims)
+        why = {*regimes.values[unknown].tolist()}
+    words = " or ".join(sorted(why)).replace("_", " ") if why <= {*WITHOUT_S} else "no value"
+    look: dict[str, Any] = {"facecolor": "white", "edgecolor": "0.6", "hatch": "////", "linewidth": 0.5}
+    axes.add_patch(Rectangle((0, 0), 1, 1, transform=axes.transAxes, zorder=-1, label=words, **look))
 
 
 def _colours(surfaces: list[xr.DataArray], kind: str) -> dict[str, Any]:
@@ -177,12 +198,14 @@ def _draw_extrema(axes: Axes, at: FloatArray, up: FloatArray, surface: xr.DataAr
     """Lines where the surface is least and greatest along x; with a gap where another extremum takes over."""
     width = 1.2 * rcParams["lines.linewidth"]
     over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}  # an extremum may be on the frame
-    for words, sign, dashes in (("least", 1.0, "-"), ("greatest", -1.0, (0, (4, 2)))):
+    for words, sign, dashes in (("minimum", 1.0, "-"), ("maximum", -1.0, (0, (4, 2)))):
         places = lowest(at, sign * surface.values, AXES[str(surface.dims[1])].units == "rad")
+        if not np.isfinite(places).any():
+            continue
         gaps = _jumps(places, float(np.ptp(at)))  # a gap before each run
         path = np.insert(places, gaps, np.nan), np.insert(up, gaps, np.nan)
         axes.plot(*path, color="white", linestyle="-", linewidth=2.0 * width, **over)
-        label = f"{words} ${surface.name}$"
+        label = f"{words} of ${surface.name}$"
         axes.plot(*path, color="#B22222", linestyle=dashes, linewidth=width, label=label, **over)
 
 
@@ -268,20 +291,25 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
     from scipy.ndimage import distance_transform_edt, gaussian_filter
 
     up, at = (regime[dim].values for dim in regime.dims)
-    names = flag_words(regime)
-    width = 1.6 * rcParams["lines.linewidth"]
+    flags, names = regime.fillna(-1).values, flag_words(regime)
+    codes, width = np.unique(flags), 1.6 * rcParams["lines.linewidth"]
+    if len(codes) == 1:
+        return
+    # Flags alone give a border in steps from point to point. Beyond the frame a border goes straight on.
+    inside = flags == codes[:, None, None]
+    around = ((0, 0), (_PAD, _PAD), (_PAD, _PAD))
+    padded = np.pad(inside.astype(float), around, mode="reflect", reflect_type="odd")
+    wide = (0.0, *(min(_SMOOTHED * size, _PAD / 4) for size in flags.shape))
+    smooth = gaussian_filter(padded, wide)[:, _PAD:-_PAD, _PAD:-_PAD]
+    for colour, wider in (("white", 2.0), ("black", 1.0)):
+        for number, one in enumerate(smooth):
+            above = one - np.delete(smooth, number, axis=0).max(axis=0)
+            axes.contour(at, up, above, levels=[0.0], colors=colour, linewidths=wider * width, zorder=3)
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small", "bbox": box, "zorder": 5}
-    for code in np.unique(regime.values[np.isfinite(regime.values)]).astype(int):
-        inside = regime.values == code
-        if inside.all():
-            continue
-        # Flags alone give a border in steps from point to point.
-        smooth = gaussian_filter(inside.astype(float), 1.0, mode="nearest")
-        for colour, wide in (("white", 2.0 * width), ("black", width)):
-            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide, zorder=3)
-        if inside.mean() > 0.03:
+    for code, one in zip(codes.astype(int), inside, strict=True):
+        if code >= 0 and one.mean() > 0.03:
             # The point furthest from what is not inside. Words are wider than high: points count less across.
-            distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
-            row, column = np.unravel_index(int(distance.argmax()), inside.shape)
+            distance = distance_transform_edt(np.pad(one, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
+            row, column = np.unravel_index(int(distance.argmax()), one.shape)
             axes.text(at[column], up[row], names[code], **look)

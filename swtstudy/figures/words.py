@@ -105,7 +105,7 @@ def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) ->
             for most in (5, 3):
                 ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
                 inside = [tick for tick in ticks if low <= tick <= high]
-                words = [f"{tick:.6g}" for tick in inside]
+                words = [f"{tick:.6g}".replace("-", "−") for tick in inside]
                 if axis is axes.yaxis or sum(map(len, words)) <= MOST_ACROSS:
                     break
             axis.set_ticks([tick / scale for tick in inside], labels=words)

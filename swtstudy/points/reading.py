@@ -20,7 +20,15 @@ import numpy as np
 
 from swtstudy.points import rules
 from swtstudy.points.grid import SAMPLE, Grid, canonical_number, complete
-from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_angle, read_exact, read_value
+from swtstudy.points.values import (
+    NamedValues,
+    Value,
+    as_number,
+    hint_at_degrees,
+    read_angle,
+    read_exact,
+    read_value,
+)
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, nearest, plain_number
@@ -159,11 +167,8 @@ def warn_of_degrees(key: str, raw: object) -> None:
     for each in several if isinstance(several, list | tuple) else (several,):
         with suppress(ValueError, TypeError, OverflowError):  # reported where it is read
             number = float(read_angle(each))
-            # Who writes a unit, or a multiple of π, means it.
-            said = isinstance(each, str) and any(word in each for word in ("pi", "π", "rad", *DEGREES))
-            if abs(number) > MANY_TURNS and not said:
-                words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
-                warnings.warn(words, stacklevel=2)
+            if abs(number) > MANY_TURNS and (hint := hint_at_degrees(each)):
+                warnings.warn(f"{key}: {number:g} is in radians; {hint}", stacklevel=2)
                 return
 
 

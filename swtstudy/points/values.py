@@ -240,6 +240,18 @@ def read_angle(raw: object) -> Fraction | float:
     return evaluate(words.removesuffix("rad"))
 
 
+def hint_at_degrees(raw: object) -> str:
+    """The words for an angle that may be meant in degrees; empty for one with a unit, or a multiple of π.
+
+    Examples
+    --------
+    >>> hint_at_degrees("90"), hint_at_degrees("pi/2")
+    ('for degrees write "90 deg"', '')
+    """
+    said = isinstance(raw, str) and any(word in raw for word in ("pi", "π", "rad", *DEGREES))
+    return "" if said else f'for degrees write "{raw} deg"'
+
+
 def _read_ratio(exact: Fraction | float, largest: int) -> Fraction:
     if exact <= 0:
         raise ValueError("not positive")

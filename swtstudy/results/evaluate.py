@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
+from swtstudy.points.values import AXIS_TOLERANCE, Value, hint_at_degrees, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
 from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
@@ -87,7 +87,9 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
         return 0
     index = index_of(value, known, tolerance)
     if index is None:
-        report(name, f"{literal(raw)}, which is not in these results", _listed(there))
+        hint = hint_at_degrees(raw) if AXES[name].units == "rad" else ""
+        allowed = "; ".join(filter(None, (_listed(there), hint)))
+        report(name, f"{literal(raw)}, which is not in these results", allowed)
     return index or 0
 
 

@@ -136,6 +136,16 @@ def test_a_layout_that_cannot_be_drawn_is_one_line(merged, options, words):
     assert not merged.with_suffix(".png").exists()
 
 
+def test_plot_says_that_nothing_is_finite(tmp_path):
+    study, archive = tmp_path / "none.toml", tmp_path / "results/none.nc"
+    forces = "[fixed]\nnormal_force_amplitude = 0\n[axes]\ntangential_force_amplitude = [2, 3]\n"
+    study.write_text(f'title = "t"\n{forces}[figure]\nx = "tangential_force_amplitude"\n')
+    call("run", study, "--results", archive.parent)
+    result = call("plot", archive)
+    assert result.exit_code == 0
+    assert result.stderr == f"{archive}: s is finite at no point of the figure\n"
+
+
 def test_plot_says_what_an_unfinished_archive_lacks(ran):
     archive = ran / "small.nc"
     assert call("plot", archive).stderr == ""

@@ -46,8 +46,8 @@ def numbers(axes):
 def curves_of(axes, count):
     """Curves of so many points: those of the instants, and two bounds for each of them."""
     curves = [line for line in axes.lines if len(line.get_xdata()) == count]
-    named = [line for line in curves if line.get_label().isdigit()]
-    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
+    named = [line for line in curves if line.get_label().startswith("instant")]
+    bounds = [line.get_ydata() for line in curves if line not in named]
     assert len(bounds) == 2 * len(named)
     return named, list(zip(bounds[::2], bounds[1::2], strict=True))
 
@@ -95,7 +95,7 @@ def test_springs(cattaneo, axes):
     radius = cattaneo.r.values
     w = np.maximum(1.0 - radius**2, 0.0)
     named, bounds = curves_of(axes, len(radius))
-    assert [line.get_label() for line in named] == [str(number) for number in cattaneo.instant.values]
+    assert [line.get_label() for line in named] == [f"instant {number}" for number in cattaneo.instant.values]
     for upper, lower in bounds:
         np.testing.assert_allclose(upper, w, atol=1e-12)
         np.testing.assert_allclose(lower, -w, atol=1e-12)
@@ -129,7 +129,7 @@ def test_tractions(cattaneo, axes):
                 np.testing.assert_allclose(line.get_ydata(), sense * 0.5 * (p - less), atol=1e-9)
     assert turning == 2
     assert axes.get_xlim() == pytest.approx((-1.08, 1.08))
-    assert -axes.get_ylim()[0] == axes.get_ylim()[1] == pytest.approx(1.2 * 0.5 * 2 / np.pi, rel=0.02)
+    assert -axes.get_ylim()[0] == axes.get_ylim()[1] == pytest.approx(1.3 * 0.5 * 2 / np.pi, rel=0.02)
     assert levels(axes, True) == [float(cattaneo.critical_x)]
 
 
@@ -177,8 +177,8 @@ def test_a_colour_is_a_state_or_an_instant(moving, axes):
     """No curve of a panel has the colour of stick or slip, and each instant has its own in all panels."""
     states = {to_hex(colour) for colour in STATE_COLOURS}
     panels.draw_springs(axes, moving)
-    instants = [line for line in axes.lines if line.get_label().isdigit()]
-    colours = {int(line.get_label()): to_hex(line.get_color()) for line in instants}
+    instants = [line for line in axes.lines if line.get_label().startswith("instant")]
+    colours = {int(line.get_label().split()[1]): to_hex(line.get_color()) for line in instants}
     assert len({*colours.values()}) == len(colours) == moving.instant.size
     assert not {*colours.values()} & states
     for draw in (panels.draw_stress, panels.draw_swt, panels.draw_tractions, draw_forces, panels.draw_load):

@@ -36,6 +36,7 @@ def jumps_of(curve: np.ndarray, name: str = "critical_x", **attributes: str) -> 
         (np.tanh(4.0 * (X - np.pi)), []),  # steep, with steps of its length beside one another
         (np.full(49, 0.9), []),
         (np.where(X < 3.0, 1e10, 1e10 + 1e-5), []),  # a rounding
+        (np.round(-0.95 - 0.002 * X, 3), []),  # steps of a tolerance
         (np.where(np.arange(49) == 20, 0.8, -0.9), [20, 21]),  # a point between two jumps
         (np.where(X < 1.0, np.nan, np.where(X < 4.0, 0.5, 0.9)), [int(np.argmax(X >= 4.0))]),
         (

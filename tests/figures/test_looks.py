@@ -339,7 +339,7 @@ def test_sheets(kept: Kept) -> None:
     said: dict[str, Any] = {}
     for given in SHEETS:
         sheet = Sheet(*given)
-        figure = sheet.figure(1.5)
+        figure = sheet.figure(True)
         pads = figure.get_layout_engine().get()
         size = [*figure.get_size_inches(), *(pads[name] for name in ("w_pad", "h_pad", "wspace", "hspace"))]
         said[str(given)] = [sheet.across, [*map(float, size)], str(figure.width)]

@@ -46,7 +46,17 @@ def test_no_two_patches_of_a_legend_are_alike(tmp_path: Path) -> None:
     assert all(one != other for one, other in combinations(looks, 2))
     # In grey the hatches differ between those side by side.
     assert all(one[1] != other[1] for one, other in pairwise(looks))
-    assert all("50 %: " in text.get_text() for text in legend.get_texts())
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words[:3] == ["5 % lie below", "50 % lie below", "95 % lie below"]
+    assert all("50 %: " in each for each in words[3:])
+
+
+@pytest.mark.usefixtures("unwrapped")
+def test_points_of_many_values_share_a_scale_of_colours(tmp_path: Path) -> None:
+    cloud = Study.from_text(SAMPLE.replace("histogram", "scatter"))
+    figure = swtstudy.run(cloud, tmp_path / "c.nc", solver=stand_in.smooth).swt.figure()
+    assert not figure.legends
+    assert figure.axes[-1].get_ylabel() == r"$\mu$"
 
 
 def test_an_axis_may_be_drawn_at_one_value(tmp_path: Path) -> None:
@@ -61,6 +71,9 @@ def test_an_axis_may_be_drawn_at_one_value(tmp_path: Path) -> None:
     assert target.stat().st_size > 0
     done = call("plot", archive, "--at", "friction=0.5")
     assert "friction: found '0.5', which is not in these results; allowed: 0.3, 0.6" in done.stderr
+    done = call("plot", archive, "--x", "friction", "--at", "phase=90")
+    assert 'allowed: 0, 1; for degrees write "90 deg"' in done.stderr
+    assert "degrees" not in call("plot", archive, "--x", "friction", "--at", "phase=pi/2").stderr
     done = call("plot", archive, "--at", "friction")
     assert "--at: found 'friction'; allowed: an axis and a value, such as friction=0.6" in done.stderr
 

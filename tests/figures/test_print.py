@@ -11,6 +11,7 @@ from matplotlib.transforms import Bbox
 from words import PROFILES
 
 import swtstudy
+from swtstudy.figures.sheet import new_figure, wrap_texts
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
@@ -103,6 +104,16 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
     assert len(lines) == 2 + (len(lines) > 2)
     assert " ".join(lines) == LONG
     assert all(line.count("$") % 2 == 0 for line in lines)
+
+
+def test_a_value_stays_with_its_unit():
+    figure = new_figure((2.0, 2.0), "column")
+    figure.subplots()
+    figure.suptitle(r"$F_0$ = 1200 N,  $u_A$ = 0.003 mm,  $\psi$ = π/2")
+    wrap_texts(figure)
+    lines = figure.get_suptitle().splitlines()
+    assert len(lines) > 1
+    assert not any(line.startswith(("N", "mm", "=", ",")) for line in lines)
 
 
 @pytest.mark.slow
