@@ -182,6 +182,8 @@ def pairs(option: str, texts: Iterable[str], allowed: str) -> dict[str, str]:
         name, sign, own = text.partition("=")
         if not sign:
             raise refused(option, literal(text), allowed)
+        if name.strip() in found:
+            raise refused(option, f"{name.strip()} twice", "one value of each")
         found[name.strip()] = own.strip()
     return found
 

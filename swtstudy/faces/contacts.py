@@ -149,6 +149,8 @@ class PhysicalContact:
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters, which give its lengths.
 
+        A ``normal_sensitivity`` is the contact's own k.
+
         Raises
         ------
         StudyError
@@ -169,15 +171,20 @@ class PhysicalContact:
             fixed["profile"] = rest.profile
         elif isinstance(fixed["profile"], TabulatedProfile):
             fixed["profile"] = _scaled(fixed["profile"], 1.0 / rest.length_scale, 1.0 / rest.depth)
+        elif rest.radius is None:
+            raise refused("profile", literal(parameters["profile"]), "a table: this contact has no radius")
         contact = replace(rest, friction=fixed["friction"], profile=fixed["profile"], shape={})
-        # In the order of the table: a length may be measured in the one before it.
-        for name in sorted(fixed, key=[*PARAMETERS].index):
+        # The shape, which the unit of force goes by; then in the order of the table: a length may be measured
+        # in the one before it.
+        order = [*shape, *PARAMETERS]
+        for name in sorted(fixed, key=order.index):
             if PARAMETERS[name].scale:
                 fixed[name] = contact.length_of(name, fixed[name])
             if name in shape:
                 contact = replace(contact, shape={**contact.shape, name: fixed[name]})
-        bodies = ("young_modulus", "poisson_ratio", "radius", "body")
-        fixed |= {name: value for name, value in grid.fixed.items() if name in bodies}
+        kept = {"young_modulus", "poisson_ratio", "radius", "body", "normal_sensitivity"} - {*parameters}
+        kept |= {"contact_length"} if contact.plane else {*()}
+        fixed |= {name: value for name, value in grid.fixed.items() if name in kept}
         axes = {name: values for name, values in grid.axes.items() if name == "body"}
         return PhysicalContact(completed(fixed | {"depth": rest.depth}, axes, {}, grid.about))
 

@@ -23,7 +23,7 @@ from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
 from swtstudy.kernel.work import CONJUGATE, MARGIN, OF_CYCLE, cycles_of, margins_of
 
-#: Points of one compiled call: their loads and profiles take some 10 MB.
+#: Points of one compiled call: their loads and profiles take some 40 MB.
 CHUNK = 64
 #: Accuracy of profiles of which radii and forces are asked, as of s: they are a hundred times more accurate.
 OF_PROFILE = 1e-8

@@ -9,10 +9,11 @@ from functools import cached_property, update_wrapper
 
 import numba
 import numpy as np
+from llvmlite import ir
 from llvmlite.binding import parse_assembly
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
-from numba.extending import typeof_impl
+from numba.extending import intrinsic, typeof_impl
 
 from swtstudy.kernel.cache import FOLDER, KeptCode, compiling
 
@@ -109,6 +110,26 @@ def jit(function):
 def jit_reordered(function):
     """Compile a loop over finite numbers whose order of summation does not matter."""
     return function if numba.config.DISABLE_JIT else Compiled(function, reordered=True)
+
+
+def _extreme(name):
+    """The larger or smaller of two numbers by the processor's instruction: loops with it are vectorised."""
+    if numba.config.DISABLE_JIT:
+        return {"max": max, "min": min}[name]
+
+    @intrinsic
+    def extreme(typing_context, one, other):
+        def code(context, builder, signature, arguments):
+            kind = ir.FunctionType(ir.DoubleType(), [ir.DoubleType()] * 2)
+            own = builder.module.declare_intrinsic(f"llvm.{name}num", [ir.DoubleType()], kind)
+            return builder.call(own, arguments)
+
+        return numba.float64(numba.float64, numba.float64), code
+
+    return extreme
+
+
+larger, smaller = _extreme("max"), _extreme("min")
 
 
 def fields(kind, names, *shape):

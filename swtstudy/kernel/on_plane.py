@@ -8,7 +8,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import jit, jit_reordered
+from swtstudy.kernel.compiled import jit, jit_reordered, larger, smaller
 from swtstudy.kernel.criterion import lifted
 from swtstudy.kernel.planes import above, halve_top
 
@@ -28,7 +28,7 @@ def tension_and_strain(stresses, m, x, y, z, of_stress):
         s = a * stresses[0, i] + b * stresses[1, i] + c * stresses[2, i]
         s += d * stresses[3, i] + e * stresses[4, i] + f * stresses[5, i]
         w = of_stress * s - stresses[6, i]
-        top, high, low = max(top, s), max(high, w), min(low, w)
+        top, high, low = larger(top, s), larger(high, w), smaller(low, w)
     return top, high - low
 
 
@@ -76,7 +76,7 @@ def width(stresses, m, C, D):
     low, high = 1e300, -1e300
     for i in range(m):
         along = C * stresses[7, i] + D * stresses[8, i]
-        low, high = min(low, along), max(high, along)
+        low, high = smaller(low, along), larger(high, along)
     return high - low
 
 

@@ -14,7 +14,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, peak, tail
-from swtstudy.kernel.compiled import fields, jit, jit_reordered
+from swtstudy.kernel.compiled import fields, jit, jit_reordered, larger, smaller
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
 from swtstudy.kernel.parts import MAX_INSTANTS, MAX_PARTS, may_be_refined
 
@@ -84,9 +84,9 @@ def extremes(curves, m, C, S, of_b, of_c):
         b, c = curves.b[i], curves.c[i]
         stress = curves.a[i] + b * C + c * S
         swing = curves.d[i] + b * of_b + c * of_c
-        top = max(top, stress)
-        high = max(high, swing)
-        low = min(low, swing)
+        top = larger(top, stress)
+        high = larger(high, swing)
+        low = smaller(low, swing)
     return top, high, low
 
 

@@ -39,6 +39,8 @@ PROFILE = np.dtype(
         # Increase of the coordinate within a panel, of the first one over sʲ; and of ∫ ξ dG.
         *fields("f8", "coordinate force", (MAX_PANELS, ORDER + 1)),
         *fields("f8", "coordinate_begin force_begin", (MAX_PANELS + 1,)),
+        # Share of a panel at which a place is, over that of its coordinate; of the first one over its root.
+        ("place", "f8", (MAX_PANELS, ORDER)),
     ]
 )
 #: Least density of a panel over its largest one, at most which counts: the stress at the edge of a contact
@@ -134,7 +136,25 @@ def assemble(profile, settled, order, largest):
         for k in range(ORDER + 1):
             profile.coordinate[p, k] /= unit
     first_panel(profile, settled[order[0]], weighted)
+    invert(profile)
     return status
+
+
+@jit
+def invert(profile):
+    """Series of the place over the coordinate, panel by panel, from which `place_of` starts."""
+    values = np.empty(ORDER)
+    for p in range(profile.panels):
+        low, high = profile.begin[p], profile.end[p]
+        below, above = profile.coordinate_begin[p], profile.coordinate_begin[p + 1]
+        profile.place[p, :] = 0.0
+        profile.place[p, 0] = 1.0
+        for i in range(ORDER):
+            share = 0.5 * (GAUSS[i] + 1.0)
+            of_coordinate = share ** profile.rises[1] if p == 0 else share
+            place = place_of(profile, below + of_coordinate * (above - below))
+            values[i] = (place - low) / (high - low) / share
+        fit(values, profile.place[p])
 
 
 @jit
@@ -247,7 +267,8 @@ def place_of(profile, coordinate):
     share = min(max(share, 0.0), 1.0)
     if p == 0:
         share = share ** (1.0 / profile.rises[1])
-    s = low + (high - low) * share
+    guess = low + (high - low) * share * clenshaw(profile.place[p], 2.0 * share - 1.0)
+    s = min(max(guess, low), high)
     for _ in range(60):
         f = coordinate_on(profile, p, s) - coordinate
         if f > 0.0:

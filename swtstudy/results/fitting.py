@@ -26,7 +26,7 @@ from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
-from swtstudy.study.units.rows import kind_of, with_replaced
+from swtstudy.study.units.rows import kinds_of, with_replaced
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -406,7 +406,7 @@ def _read(
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
     if table and isinstance(grid, PhysicalGrid):
-        report += wrong_units(table, {name: kind_of(name) for name in columns if name in AXES}, grid.labels)
+        report += wrong_units(table, kinds_of(name for name in columns if name in AXES), grid.labels)
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"

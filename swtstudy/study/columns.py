@@ -448,8 +448,10 @@ def by_aliases(headers: Sequence[str], aliases: Mapping[str, str]) -> list[str]:
 
 def wrong_units(table: UserTable, kinds: Mapping[str, str | None], units: Units) -> list[Mistake]:
     """The mistakes of columns that have a kind, in other units than the study's; see `wrong_unit`."""
-    own = {name: kind for name, kind in kinds.items() if kind}
-    return [each for name, kind in own.items() for each in wrong_unit(table, name, kind, units.label(kind))]
+    labels = {
+        name: (kind, "rad" if kind == "angle" else units.label(kind)) for name, kind in kinds.items() if kind
+    }
+    return [each for name, own in labels.items() for each in wrong_unit(table, name, *own)]
 
 
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
@@ -457,17 +459,23 @@ def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mista
     column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
     factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
     if own_kind != kind:
-        found = f"{column} in {unit} as {name}, which is a {kind}"
-        allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
+        found = f"{column} in {unit} as {name}, which is {_one(kind)}"
+        allowed = f"a column with {_one(kind)}, not {_one(own_kind)}, whatever its scale"
     elif factor == 1.0 or (own is not None and not math.isclose(abs(own) * factor, 1.0)):
         return []
     else:
-        found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
+        study = "angles are" if kind == "angle" else f"[units] has {kind}"
+        found = f"{column} in {unit} as {name}, while {study} in {label}"
         found += "" if own is None else f", and scale has {name} = {own:g}"
         allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
         if not table.has_keys:
             allowed = f"a column in {label}: its values times {factor:g}"
     return [Mistake("", found, allowed, table.source)]
+
+
+def _one(kind: str) -> str:
+    """A kind with its article."""
+    return f"an {kind}" if kind == "angle" else f"a {kind}"
 
 
 def read_table(

@@ -19,14 +19,14 @@ import numpy as np
 from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
 from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
 from swtstudy.points.values import Value, as_number, read_value
-from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
+from swtstudy.study.columns import COMMA_HINT, MISSING, read_table, unknown_names, wrong_units
 from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
-from swtstudy.study.units.rows import Units, kind_of
+from swtstudy.study.units.rows import Units, kinds_of
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
+from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
 from swtstudy.vocabulary.parameters import Parameter
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
@@ -195,11 +195,17 @@ class SampleReader:
                 header = form.columns[name]
                 found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
             units = self.contacts.units if self.contacts else Units()
-            there = (name for name in own if name in self.rows and name not in lost)
-            found += wrong_units(table, {name: kind_of(name) for name in there}, units)
+            there = [name for name in own if name in self.rows and name not in lost]
+            found += wrong_units(table, kinds_of(there), units)
+            columns = [*map(table.column, there)]
+            empty = [line for line, row in table.cells if any(row[k].lower() in MISSING for k in columns)]
+            if empty:
+                words = f"a cell without a value{more_like_it(len(empty))}"
+                found(f"line {empty[0]}", words, "a value of each parameter at each point")
+            table.cells = [(line, row) for line, row in table.cells if line not in empty]
             with under(self.report, "sample", "file"):  # and the values are told, too
                 found.refuse()
-            if table.cells:
+            if table.cells or empty:
                 return {} if lost else {name: table.values(name) for name in own}
             self.report("sample.file", f"{path} without points", _POINTS)
         return {}

@@ -66,6 +66,8 @@ def test_an_axis_may_be_drawn_at_one_value(tmp_path: Path) -> None:
     assert done.exit_code == 2
     assert "no place for the axis friction; allowed: " in done.stderr
     assert done.stderr.rstrip().endswith("with a single value, such as by --at friction=…")
+    twice = call("plot", archive, "--at", "friction=0.6", "--at", "friction=0.5")
+    assert twice.stderr == "Error: --at: found friction twice; allowed: one value of each\n"
     at = ["--x", "phase", "--at", "friction=0.6"]
     assert call("plot", archive, *at, "-o", target).exit_code == 0
     assert target.stat().st_size > 0

@@ -6,6 +6,7 @@ import re
 import runpy
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from told import refused, sayings
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
+from swtstudy.vocabulary.choices import CRITERIA
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
 STEEL = FatigueConstants(
@@ -227,6 +229,32 @@ def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
     assert punch.with_parameters(profile="truncated_paraboloid").shape == pytest.approx(punch.shape)
     refused("wavelength: found 7, which no profile here has", punch.with_parameters, wavelength=7)
     refused("profile: found 'parabola'", punch.with_parameters, profile="parabola")
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"criterion": "fatemi_socie", "normal_sensitivity": 0.3, "yield_strength": 325.0},
+        {"profile": "cylinder", "contact_length": 10.0},
+        {"profile": "rounded_punch", "flat_radius": 0.2},
+        {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-4, "wavelength": 1.0},
+    ],
+)
+def test_the_same_parameters_give_the_same_contact(given: dict[str, Any]) -> None:
+    contact = physical(**ALUMINIUM, normal_force=2000.0, tangential_force_amplitude=600.0, **given)
+    again = contact.with_parameters(phase=contact.phase).with_parameters(friction=contact.friction)
+    for name in ({*given} - {"yield_strength"}) | {"normal_force", "tangential_force_amplitude"}:
+        own = getattr(contact, name)
+        assert getattr(again, name) == (own if isinstance(own, str) else pytest.approx(own, rel=1e-12))
+    y = CRITERIA[given.get("criterion", "swt")].name
+    np.testing.assert_allclose(again.solve(1e-2)[y], contact.solve(1e-2)[y], rtol=1e-9)
+
+
+def test_a_table_has_no_radius_for_another_profile() -> None:
+    table = swtstudy.TabulatedProfile("mine", np.linspace(0.0, 4.0, 41), np.linspace(0.0, 4.0, 41) ** 2 / 100)
+    own = {name: value for name, value in ALUMINIUM.items() if name != "radius"}
+    contact = physical(**own, profile=table, normal_force=200.0, tangential_force_amplitude=60.0)
+    refused("profile: found 'paraboloid'; allowed: a table", contact.with_parameters, profile="paraboloid")
 
 
 def test_waves_are_judged_at_the_largest_depth():

@@ -247,3 +247,18 @@ def test_points_of_a_file_may_be_scaled(tmp_path):
     scale = "scale = { normal_force = 1000, tangential_force_amplitude = 1000 }\n"
     (tmp_path / "mine.toml").write_text(RIG_POINTS + scale)
     assert Study.from_toml(tmp_path / "mine.toml").grid.samples["normal_force"] == (200.0, 300.0)
+
+
+@pytest.mark.parametrize(
+    ("header", "rows", "words"),
+    [
+        ("phase [deg]", "2\n5\n", r"'phase \[deg\]' in deg as phase, while angles are in rad"),
+        ("phase (°)", "2\n5\n", "in ° as phase, while angles are in rad .* scale = { phase = 0.0174533 }"),
+        ("phase", "1,0.2\n2,\n,0.3\n", r"a cell without a value; 1 more like it \(line 3\)"),
+    ],
+)
+def test_angles_in_degrees_and_cells_without_a_value_are_told(tmp_path, header, rows, words):
+    (tmp_path / "points.csv").write_text(f"{header}{',friction' * (',' in rows)}\n{rows}")
+    study = f'{HEAD}[sample]\nfile = "points.csv"\ncolumns = {{ phase = "{header}" }}\n'
+    (tmp_path / "study.toml").write_text(study)
+    refused(words, Study.from_toml, tmp_path / "study.toml")

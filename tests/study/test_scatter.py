@@ -72,6 +72,9 @@ def test_sequences_of_blocks_scatter(tmp_path: Path) -> None:
     for percent in (10, 50, 90):
         ranked = np.sort([one.values for one in each], axis=0)[int(np.ceil(0.64 * percent)) - 1]
         np.testing.assert_allclose(found[f"repetitions_{percent}"], ranked, rtol=1e-9)
+    # In load cycles, of which a repetition has 1010.
+    early = np.mean([one.values < 2e5 / 1010.0 for one in each], axis=0)
+    np.testing.assert_allclose(found.failure_probability, early)
     assert re.search(r"shortest lives \(repetitions\): N10 = \d", repr(found.swt))
 
 

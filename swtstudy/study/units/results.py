@@ -15,7 +15,17 @@ from swtstudy.study.units.life import Block, LifeCurve
 from swtstudy.study.units.rows import LABELS, TABLES, Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
-from swtstudy.vocabulary.derived import DERIVED, LIFE, LIVES, NORMALISED, PERCENTS, RANKS, REPETITIONS, SHARE
+from swtstudy.vocabulary.derived import (
+    DERIVED,
+    FAILED,
+    LIFE,
+    LIVES,
+    NORMALISED,
+    PERCENTS,
+    RANKS,
+    REPETITIONS,
+    SHARE,
+)
 from swtstudy.vocabulary.quantities import CONTACT, COUNTED, COUNTED_SIZES, Request, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
 
@@ -73,8 +83,13 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     for row in derived(grid, asked):
         of_points = (*grid.dims, *asked.variables.get(row.of, ())) if row.of else grid.at_rest_dims
         dims = found[row.of] if row.of in LIVES else of_points
-        found[row.name] = tuple(dim for dim in dims if dim != "load" or REPETITIONS not in row.name)
+        found[row.name] = tuple(dim for dim in dims if dim != "load" or not _is_of_sequence(row, grid))
     return found
+
+
+def _is_of_sequence(row: Derived, grid: PhysicalGrid) -> bool:
+    """True for a variable of a whole sequence of blocks, not of each load."""
+    return REPETITIONS in row.name or (row.kind == FAILED and bool(grid.blocks))
 
 
 def measures(dataset: xr.Dataset) -> list[str]:
@@ -98,7 +113,7 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
         if row.kind in (REPETITIONS, SHARE):
             values = _of_blocks(found[row.of], row.kind, grid)
         elif row.kind in RANKS:
-            key = row.of, REPETITIONS in row.name
+            key = row.of, _is_of_sequence(row, grid)
             if key not in ranks:
                 kind = CRITERIA[row.criterion]
                 of = found[f"{kind.name}{row.of.removeprefix(kind.life)}"]
@@ -259,13 +274,15 @@ def _ranks(
 ) -> FloatArray:
     """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...).
 
-    With the rounds of loads, the last dimension of the values, lives are repetitions of them all.
+    With the rounds of loads, the last dimension of the values, lives are repetitions of them all. The target
+    is in rounds.
     """
     together = 1 if rounds is None else len(rounds)
     flat = values.reshape(-1, together)
     of_each = [each.reshape(*flat.shape, *each.shape[-2:]) for each in counted]
     found = np.full((len(PERCENTS) + 1, len(flat)), np.nan)
     cycles = of_each[0][0].size if of_each else together
+    goal = target if rounds is None else target / rounds.sum()
     size = max(1, _AT_ONCE // (len(curve.level) * cycles))
     for begin in range(0, len(flat), size):  # in parts of the points, so that memory is bounded
         part = slice(begin, begin + size)
@@ -277,5 +294,5 @@ def _ranks(
             each = np.divide(1.0, damage, out=np.full_like(damage, np.inf), where=damage > 0.0)
         # Without interpolation: a life may be infinite.
         ranks = np.quantile(each, np.array(PERCENTS) / 100.0, axis=0, method="inverted_cdf")
-        found[:, np.flatnonzero(known) + begin] = [*ranks, (each < target).mean(axis=0)]
+        found[:, np.flatnonzero(known) + begin] = [*ranks, (each < goal).mean(axis=0)]
     return found.reshape(-1, *(values.shape if rounds is None else values.shape[:-1]))

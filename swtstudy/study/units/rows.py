@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -242,6 +242,11 @@ def kind_of(name: str) -> str | None:
     """Dimension of a parameter: "length", "force" or "stress"; None if it has none of them."""
     scale = AXES[name].scale
     return SCALES[scale].kind if scale else TABLES["kinds"].get(name)
+
+
+def kinds_of(names: Iterable[str]) -> dict[str, str | None]:
+    """Dimensions of the values of parameters in a file, by their names: of `kind_of`, or an angle."""
+    return {name: "angle" if AXES[name].units == "rad" else kind_of(name) for name in names}
 
 
 #: Labels of the bodies along the dimension ``body``.
