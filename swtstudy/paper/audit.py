@@ -17,7 +17,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.grid import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
+from swtstudy.points.grid import (
+    COLUMNS,
+    COST,
+    ROW,
+    SHAPE_COLUMNS,
+    Definitions,
+    Table,
+    code_of,
+    points_from,
+    value_of,
+)
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
@@ -107,7 +117,8 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     from swtstudy.archive.archive import load_file
 
     dataset = load_file(Path(path))
-    if not {*_COLUMNS, *_ATTRIBUTES} <= {*dataset.variables}:
+    # An audit may be older than a shape parameter, which then no profile of it has.
+    if not {*_COLUMNS, *_ATTRIBUTES} - {*SHAPE_COLUMNS} <= {*dataset.variables}:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
     return dataset
 
@@ -115,7 +126,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 def canonical_rows(dataset: xr.Dataset) -> Table:
     """The canonical rows of an audit's points, shape (n,)."""
     known, rows = defined_in(dataset.attrs), np.zeros(dataset.sizes["sample"], ROW)
-    for name in _COLUMNS:
+    for name in (name for name in _COLUMNS if name in dataset):
         own, values = known.get(name, {}), dataset[name].values
         rows[name] = [code_of(own.get(each, each), name) for each in values] if name in _NAMES else values
     loads = known.get("load", {})
