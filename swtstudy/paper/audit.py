@@ -17,17 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.grid import (
-    COLUMNS,
-    COST,
-    ROW,
-    SHAPE_COLUMNS,
-    Definitions,
-    Table,
-    code_of,
-    points_from,
-    value_of,
-)
+from swtstudy.points.grid import COST, ROW, SHAPE_COLUMNS, Definitions, Table, code_of, points_from, value_of
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
@@ -51,7 +41,7 @@ FOUND = [n for n in _ATTRIBUTES if n not in ("excess", "remainder", "shortfall",
 #: An audited point, in an array: its numbers, and its regime's flag value.
 AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Columns of the rows that an audit holds: the loop knows what it costs. And the columns of names.
-_COLUMNS = [name for name in COLUMNS if name != COST]
+_COLUMNS = [name for name in ROW.names or () if name != COST]
 _NAMES = ("profile", "criterion", "load")
 
 #: Relative excess of the body's maximum that counts; s itself is computed to a tenth of this.

@@ -36,14 +36,8 @@ Axis = Annotated[str, "the name of an axis"]
 OtherAxis = Annotated[str | None, "the name of an axis"]
 Text = Annotated[str | None, "a text"]
 Flag = Annotated[StrictBool, "true or false"]
-Kind = Annotated[
-    str,
-    "a text",
-    Field(
-        description="; ".join(f"{name}: {each.words}" for name, each in FIGURES.items()) + ".",
-        json_schema_extra={"enum": [*FIGURES]},
-    ),
-]
+_KINDS = "; ".join(f"{name}: {each.words}" for name, each in FIGURES.items()) + "."
+Kind = Annotated[str, "a text", Field(description=_KINDS, json_schema_extra={"enum": [*FIGURES]})]
 _EITHER = [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]
 Quantities = Annotated[
     tuple[str, ...],
