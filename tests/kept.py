@@ -1,12 +1,14 @@
 """What figures and Datasets show and say, as plain data, beside what is kept of them in `tests/data/kept`.
 
-Numbers may differ by a thousandth. A change on purpose is kept with `pytest --keep`, and read in the diff.
+Numbers may differ by a thousandth. A change on purpose is kept with `pytest -n 0 --keep`, and read in the
+diff; so are the texts of `tests/data`.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -45,6 +47,13 @@ class Kept:
         known = json.loads(path.read_text(encoding="utf-8"))
         apart = [*differences(json.loads(json.dumps(found)), known)]
         assert not apart, "\n".join(apart[:20])
+
+    def text(self, path: Path, known: str, found: str) -> None:
+        """Compare a part of a file of texts; with ``anew`` put what is found in its place, in one process."""
+        if self.anew and found != known:
+            path.write_text(path.read_text(encoding="utf-8").replace(known, found, 1), encoding="utf-8")
+        else:
+            assert found == known
 
 
 def lines_of(value: Any, indent: str = "") -> str:

@@ -21,8 +21,9 @@ SHAPES: dict[str, tuple[str, ...]] = {
     "wavy_cylinder": ("waviness_amplitude", "wavelength"),
     "power_law_cylinder": ("exponent",),
 }
-#: Profiles of discs, which all that is prescribed goes with, and profiles of strips.
-PROFILE_NAMES, PLANE_NAMES = tuple(SHAPES)[:5], tuple(SHAPES)[5:]
+#: Profiles of strips, and profiles of discs, which all that is prescribed goes with.
+PLANE_NAMES = ("cylinder", "rounded_flat", "wavy_cylinder", "power_law_cylinder")
+PROFILE_NAMES = tuple(name for name in SHAPES if name not in PLANE_NAMES)
 #: What is prescribed: both forces, or the tangential one beside the depth.
 FORCES, TANGENTIAL_FORCE = Control(True, True), Control(False, True)
 

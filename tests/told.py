@@ -1,6 +1,7 @@
 """What tests of several rooms ask of studies and archives as a user does: by calls, files and commands."""
 
 import re
+import textwrap
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -52,6 +53,12 @@ def sayings(text: str) -> list[tuple[str, list[str]]]:
             found.append((expression.strip(), []))
         found[-1][1].extend(said)
     return found
+
+
+def set_in(lines: list[str]) -> str:
+    """Lines as a file of texts has them: what is longer than a line goes on set in."""
+    style = {"subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
+    return "\n".join(textwrap.fill(line, 110, **style) for line in lines)  # type: ignore[arg-type]
 
 
 def lines_of(found: object) -> list[str]:

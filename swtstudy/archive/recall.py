@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -23,7 +23,7 @@ from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, is_rtol, literal, plain_number
-from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.parameters import PARAMETERS, Control, Parameter, replaced_by
 from swtstudy.vocabulary.quantities import (
     ATTRIBUTES,
     COMPUTED,
@@ -53,21 +53,8 @@ def grid_of(dataset: xr.Dataset, report: Report | None = None) -> Grid:
     report, dims = Report() if report is None else report, [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    known = defined_in(dataset.attrs)
-    found: NamedValues = {}
-    for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
-        own = tuple(map(str, dataset[name].dims))
-        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
-            report(name, f"dimensions {own}", "an axis of s, or a single value")
-            continue
-        values: list[Value] = []
-        for raw in np.atleast_1d(dataset[name].values).tolist():
-            try:
-                values.append(read_value(table[name], raw, known.get(name, {})))
-            except ValueError as error:
-                report(name, f"{literal(raw)} ({error})", table[name].allowed)
-                break  # the first wrong value of each coordinate is told
-        found[name] = tuple(values)
+    own = {n: row for n, row in table.items() if n in dataset.coords and n not in (*pairs, DISTANCE)}
+    found = _read_coordinates(dataset, own, report)
     samples = {name: values for name, values in found.items() if dataset[name].dims == (SAMPLE,)}
     for name in (n for n in dims if n not in found.keys() - samples and not (n == SAMPLE and samples)):
         report(name, "a dimension without values of a parameter", ", ".join(table))
@@ -106,6 +93,25 @@ def _check_physical(grid: PhysicalGrid, report: Report) -> None:
         report.of(MEAN_LOADS, *wrong)
     if not report:
         check_contacts(grid, report)
+
+
+def _read_coordinates(dataset: xr.Dataset, own: Mapping[str, Parameter], report: Report) -> NamedValues:
+    """Values of parameters that are coordinates; the first wrong value of each is told."""
+    known, found = defined_in(dataset.attrs), dict[str, tuple[Value, ...]]()
+    for name, row in own.items():
+        dims = tuple(map(str, dataset[name].dims))
+        if dims not in ((), (name,), (SAMPLE,)) or not {*dims} <= {*dataset.s.dims}:
+            report(name, f"dimensions {dims}", "an axis of s, or a single value")
+            continue
+        values: list[Value] = []
+        for raw in np.atleast_1d(dataset[name].values).tolist():
+            try:
+                values.append(read_value(row, raw, known.get(name, {})))
+            except ValueError as error:
+                report(name, f"{literal(raw)} ({error})", row.allowed)
+                break
+        found[name] = tuple(values)
+    return found
 
 
 def request_of(dataset: xr.Dataset) -> Request:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from pkgutil import resolve_name
 from string import ascii_uppercase
 
 import xarray as xr
 
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
-from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, entitle, styled
 from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, parts_of, quantity_words, title_words
@@ -25,9 +25,6 @@ from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import require
 from swtstudy.vocabulary.wording import axis_words
-
-#: Kinds of figures that are drawn elsewhere.
-_DRAWN = {"scatter": draw_scatter, "histogram": draw_histogram}
 
 
 def draw(
@@ -66,7 +63,8 @@ def draw(
     require_points(dataset)
     _check(dataset, layout)
     with styled(style, width):
-        figure = _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout, width)
+        drawn = resolve_name(f"{__package__}.{FIGURES[layout.kind].drawn_by}")
+        figure: Figure = drawn(dataset.compute(), layout, width)
         if layout.title:
             figure.suptitle(layout.title)
         loads = defined_in(dataset.attrs).get("load", {}) if layout.hue == "load" else {}
@@ -115,7 +113,7 @@ def _check(dataset: xr.Dataset, layout: FigureLayout) -> None:
         raise StudyError(dict.fromkeys(found))
 
 
-def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
+def draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
     """A row of panels for each quantity, a column for each value of the panels' dimension."""
     count = dataset.sizes[layout.panels] if layout.panels else 1
     lines, upright = FIGURES[layout.kind].of == "lines", layout.kind == "life"

@@ -123,15 +123,15 @@ def _draw_over_phase(axes: Axes, s: xr.DataArray, phase: float) -> None:
     entitle(axes, "$s$ over the phase")
 
 
-#: Lower and upper end of each slider, its step, and where it begins; ends within what is allowed.
+#: Lower and upper end of each slider, its step, and where it begins; ends within what is allowed. Shape
+#: parameters that are not listed are lengths in a_H.
 SLIDERS: dict[str, tuple[float, float, float, float]] = {
     "phase": (0.0, 2 * pi, pi / 72, 0.0),
     "normal_amplitude": (0.0, 1.25, 0.01, 0.75),
     "tangential_amplitude": (0.0, 3.0, 0.01, 0.83),
     "friction": (0.01, 1.0, 0.01, 0.3),
     "poisson_ratio": (0.0, 0.5, 0.01, 0.3),
-    "flat_radius": (0.0, 2.0, 0.01, 0.5),
-    "flat_half_width": (0.0, 2.0, 0.01, 0.5),
+    **{name: (0.01 * PARAMETERS[name].open_lower, 2.0, 0.01, 0.5) for name in SHAPE_COLUMNS},
     "waviness_amplitude": (0.0, 0.05, 0.001, 0.02),
     "wavelength": (4.5, 12.0, 0.1, 5.0),
     "exponent": (1.2, 8.0, 0.1, 4.0),

@@ -17,9 +17,10 @@ from math import acos, atan2, hypot, pi, sqrt
 import numpy as np
 
 from swtstudy.kernel.compiled import fields, jit, new_record
+from swtstudy.vocabulary.choices import CRITERIA
 
-SWT, FATEMI_SOCIE, FINDLEY = np.arange(3)
-NAMES = ("swt", "fatemi_socie", "findley")
+#: Numbers of the rows of `CRITERIA`.
+SWT, FATEMI_SOCIE, FINDLEY = np.arange(len(CRITERIA))
 CRITERION = [
     ("criterion", "i8"),
     ("sensitivity", "f8"),  # k
@@ -52,7 +53,7 @@ def set_criterion(record, name, poisson_ratio, walker_exponent=0.5, normal_sensi
     poisson_ratio, walker_exponent, normal_sensitivity
         ν, γ and k, –; the last one in a_H/(E* δ0) for fatemi_socie.
     """
-    kind, gamma = NAMES.index(name), walker_exponent
+    kind, gamma = [*CRITERIA].index(name), walker_exponent
     record["criterion"], record["sensitivity"] = kind, normal_sensitivity
     record["of_swing"], record["power"], record["outer"], record["factor"] = 1, 1.0, 1.0, 0.5
     if kind == SWT:
@@ -161,7 +162,7 @@ def stress_of(ask, T, A):
     """The stress on whose relative error that of a value depends: of a product the smaller factor."""
     if ask.criterion == SWT:
         return min(0.5 * A, T)
-    return max(0.5 * A, ask.sensitivity * T) if ask.criterion == FINDLEY else 0.5 * A
+    return 0.5 * A if ask.criterion == FATEMI_SOCIE else max(0.5 * A, ask.sensitivity * T)
 
 
 @jit
@@ -178,14 +179,14 @@ def far_field(ask, largest, smallest, plane):
     swing, nu, k = largest - smallest, ask.poisson_ratio, ask.sensitivity
     if ask.criterion == SWT:
         return value_of(ask, lifted(ask, largest, swing * (1.0 - nu * nu) if plane else swing, 0.0)), 0.0
-    if ask.criterion == FINDLEY:
-        pull, shear = k * largest, 0.5 * swing
-        return max(0.5 * (pull + hypot(shear, pull)), 0.0), atan2(shear, pull)
-    # sin 2θ (1 + m + m cos 2θ) is largest where its derivative, a quadratic form of the cosine, vanishes.
-    m = 0.5 * k * max(largest, 0.0)
-    cosine = 2.0 * m / (1.0 + m + sqrt((1.0 + m) * (1.0 + m) + 8.0 * m * m))
-    T, A = 0.5 * largest * (1.0 + cosine), 0.5 * swing * sqrt(1.0 - cosine * cosine)
-    return value_of(ask, lifted(ask, T, A, 0.0)), acos(cosine)
+    if ask.criterion == FATEMI_SOCIE:
+        # sin 2θ (1 + m + m cos 2θ) is largest where its derivative, a quadratic form of the cosine, vanishes.
+        m = 0.5 * k * max(largest, 0.0)
+        cosine = 2.0 * m / (1.0 + m + sqrt((1.0 + m) * (1.0 + m) + 8.0 * m * m))
+        T, A = 0.5 * largest * (1.0 + cosine), 0.5 * swing * sqrt(1.0 - cosine * cosine)
+        return value_of(ask, lifted(ask, T, A, 0.0)), acos(cosine)
+    pull, shear = k * largest, 0.5 * swing
+    return max(0.5 * (pull + hypot(shear, pull)), 0.0), atan2(shear, pull)
 
 
 @jit

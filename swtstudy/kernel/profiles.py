@@ -51,10 +51,11 @@ def profile_record(profile, shape, in_force, largest, rtol):
     if not isinstance(profile, str):
         # The same for all points of a study.
         return _of_table(profile, in_force or profile.plane, 2.0 ** np.ceil(np.log2(largest)), rtol)
-    form, names, plane = FORMS[profile], family_of(profile).shape, is_plane(profile)
-    values = tuple(float(shape[name]) for name in names)
+    form, family, plane = FORMS[profile], family_of(profile), is_plane(profile)
+    names, values = family.shape, tuple(float(shape[name]) for name in family.shape)
     left_out = _left_out(values, in_force and not plane, largest) if "wavelength" in names else 0.0
-    if not values or values[0] < SMALLEST or left_out > 0.0:
+    plain = not values or (family.plain == (names[0], 0.0) and values[0] < SMALLEST)
+    if plain or left_out > 0.0:
         record = _record(plane, in_force, exponent=2.0)
         record["left_out"] = left_out
         return record

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.grid import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
+from swtstudy.points.grid import COST, ROW, SHAPE_COLUMNS, Definitions, Table, code_of, points_from, value_of
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
@@ -41,7 +41,7 @@ FOUND = [n for n in _ATTRIBUTES if n not in ("excess", "remainder", "shortfall",
 #: An audited point, in an array: its numbers, and its regime's flag value.
 AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Columns of the rows that an audit holds: the loop knows what it costs. And the columns of names.
-_COLUMNS = [name for name in COLUMNS if name != COST]
+_COLUMNS = [name for name in ROW.names or () if name != COST]
 _NAMES = ("profile", "criterion", "load")
 
 #: Relative excess of the body's maximum that counts; s itself is computed to a tenth of this.
@@ -107,7 +107,8 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     from swtstudy.archive.archive import load_file
 
     dataset = load_file(Path(path))
-    if not {*_COLUMNS, *_ATTRIBUTES} <= {*dataset.variables}:
+    # An audit may be older than a shape parameter, which then no profile of it has.
+    if not {*_COLUMNS, *_ATTRIBUTES} - {*SHAPE_COLUMNS} <= {*dataset.variables}:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
     return dataset
 
@@ -115,7 +116,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 def canonical_rows(dataset: xr.Dataset) -> Table:
     """The canonical rows of an audit's points, shape (n,)."""
     known, rows = defined_in(dataset.attrs), np.zeros(dataset.sizes["sample"], ROW)
-    for name in _COLUMNS:
+    for name in (name for name in _COLUMNS if name in dataset):
         own, values = known.get(name, {}), dataset[name].values
         rows[name] = [code_of(own.get(each, each), name) for each in values] if name in _NAMES else values
     loads = known.get("load", {})

@@ -310,14 +310,7 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     name = "bulk_stress_amplitude"
     idle = [loop.code for loop in grid.loops if name not in loop.scaled_by]
     table[name][np.isin(table["load"], idle)] = 0.0
-    profile = table["profile"]
-    for family in FAMILIES.values():
-        if family.plain is not None:
-            name, value = family.plain
-            same = (profile == code_of(family.name)) & (table[name] == value)
-            profile[same] = code_of(PLAIN_OF[family.geometry])
-    for name in SHAPE_COLUMNS:
-        table[name][~np.isin(profile, [code_of(family) for family in families_with(name)])] = 0.0
+    _make_shapes_canonical(table)
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[-1])
     # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
@@ -343,6 +336,18 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
     table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return table, mirrored
+
+
+def _make_shapes_canonical(table: Table) -> None:
+    """A profile whose shape is plain is the plain one, and has no shape of another profile."""
+    profile = table["profile"]
+    for family in FAMILIES.values():
+        if family.plain is not None:
+            name, value = family.plain
+            same = (profile == code_of(family.name)) & (table[name] == value)
+            profile[same] = code_of(PLAIN_OF[family.geometry])
+    for name in SHAPE_COLUMNS:
+        table[name][~np.isin(profile, [code_of(family) for family in families_with(name)])] = 0.0
 
 
 def _make_shifts_canonical(table: Table, shift: NDArray) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.chunk import Arrays
 from swtstudy.points.grid import Distinct, Grid, alike, code_of, points_from
-from swtstudy.points.validity import validity_lines
+from swtstudy.points.validity import ROUNDING, validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
@@ -27,8 +27,6 @@ _LONGEST_NAME = 24
 _TOGETHER = 2000
 #: Larger grids are not looked at before they are solved: a point takes some 30 µs.
 MOST_FORESEEN = 100_000
-#: Ratio of a tangential force to μ F_N that is 1 to rounding.
-_ROUNDING = 1e-9
 
 
 def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.Dataset:
@@ -52,36 +50,13 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.
         optional ones at their default; parameters of a sample are coordinates along its dimension, which
         numbers its points. The coordinate ``control`` says what is prescribed.
     """
-    coordinates: dict[str, Any] = {
-        name: (grid.dimension(name), plain_values(values), _attributes(grid.row(name), values))
-        for name, values in (grid.samples | grid.axes).items()
-    }
-    if grid.samples:
-        words = {"long_name": "number of the point", "parameters": " ".join(grid.samples)}
-        dim = grid.sample_dim
-        coordinates.setdefault(dim, (dim, values_along(grid, dim), words))
-    for name, value in grid.fixed.items():
-        says = name == SHIFT and "stick_zone" in grid.margins
-        if says or not grid.row(name).goes_without_saying(value):
-            coordinates[name] = ((), plain_values((value,))[0], _attributes(grid.row(name), (value,)))
-    words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
-    coordinates["control"] = (), grid.control.name, words
-    if asked.distances:
-        words, along = _attributes(grid.row(DISTANCE), asked.distances), QUANTITY_AXES["direction"]
-        distances = np.array(asked.distances)
-        coordinates[DISTANCE] = (DISTANCE, distances, words) if asked.is_axis else ((), distances[0], words)
-        words = {"long_name": along.name, "comment": along.meaning}
-        coordinates["direction"] = "direction", np.array(DIRECTIONS, dtype=object), words
-    of_quantities = asked.variables
-    variables: dict[str, Any] = {}
+    variables: dict[str, xr.Variable] = {}
     for name, values in arrays.items():
-        dims = of_quantities.get(name, ())
+        dims = asked.variables.get(name, ())
         tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
-        variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes_of(name)
-    dataset = xr.Dataset(
-        {name: _variable(*given) for name, given in variables.items()},
-        {name: _variable(*given) for name, given in coordinates.items()},
-    )
+        whole = values.reshape((*grid.shape, *tail))
+        variables[name] = _variable((*grid.dims, *dims), whole, attributes_of(name))
+    dataset = xr.Dataset(variables, {name: _variable(*own) for name, *own in _coordinates(grid, asked)})
     _name_criteria(dataset, grid, asked)
     dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
@@ -93,7 +68,28 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
-def _variable(dims: str | tuple[str, ...], values: Any, attributes: Mapping[str, str]) -> xr.Variable:
+def _coordinates(grid: Grid, asked: Request) -> Iterator[tuple[str, tuple[str, ...], Any, dict[str, str]]]:
+    """Name, dimensions, values and attributes of each coordinate."""
+    for name, values in (grid.samples | grid.axes).items():
+        yield name, (str(grid.dimension(name)),), plain_values(values), _attributes(grid.row(name), values)
+    if grid.samples and grid.sample_dim not in grid.samples:
+        words = {"long_name": "number of the point", "parameters": " ".join(grid.samples)}
+        yield grid.sample_dim, (grid.sample_dim,), values_along(grid, grid.sample_dim), words
+    for name, value in grid.fixed.items():
+        says = name == SHIFT and "stick_zone" in grid.margins
+        if says or not grid.row(name).goes_without_saying(value):
+            yield name, (), plain_values((value,))[0], _attributes(grid.row(name), (value,))
+    words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
+    yield "control", (), grid.control.name, words
+    if asked.distances:
+        dims, distances = (DISTANCE,) * asked.is_axis, np.array(asked.distances)
+        words = _attributes(grid.row(DISTANCE), asked.distances)
+        yield DISTANCE, dims, distances if asked.is_axis else distances[0], words
+        words = {"long_name": (along := QUANTITY_AXES["direction"]).name, "comment": along.meaning}
+        yield "direction", ("direction",), np.array(DIRECTIONS, dtype=object), words
+
+
+def _variable(dims: tuple[str, ...], values: Any, attributes: Mapping[str, str]) -> xr.Variable:
     """A variable that xarray need not convert: for that it would first import the arrays of dask."""
     values = values if hasattr(values, "dask") else np.asarray(values)
     return xr.Variable(dims, values, attributes, fastpath=True)
@@ -196,24 +192,12 @@ def margins(
     ``bulk_shift`` as long as it is no larger than the width of the slip zone. Without a compiler they are
     known to 1e-5. ``points`` are the distinct points of the grid, if they are known.
     """
-    from swtstudy.solver.margins import foreseen, margins_of
-
-    names, found = grid.margins, dict[str, NDArray]()
-    if not (names and grid.size):
+    if not (grid.margins and grid.size):
         return {}
     points = points or Distinct.of(grid)
-    for rows in alike(points.rows):
-        for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
-            own = points_from(points.rows[some], points.definitions)
-            with np.errstate(all="ignore"):
-                made = foreseen(own) if without_compiler else margins_of(own)
-            approximately = 1.0 + (not is_plane(own.profile))
-            made["stick_zone"] = np.where(made["moved"] > 0.0, np.maximum(made["moved"], approximately), 0.0)
-            for name, values in made.items():
-                found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
-    found = {name: values[points.index] for name, values in found.items()}
-    names_of = "curvature", "face", "slip_scale", "body_share", "bulk_stress_amplitude"
-    curvature, face, slip, share, pull = grid.at(np.arange(grid.size), *names_of)
+    found = {name: own[points.index] for name, own in _margins_of(points, without_compiler).items()}
+    names = "curvature", "face", "slip_scale", "body_share", "bulk_stress_amplitude"
+    curvature, face, slip, share, pull = grid.at(np.arange(grid.size), *names)
     # The stick zone is both bodies', whichever of them carries the bulk stress.
     shift = np.where(pull == 0.0, 0.0, found["unit_shift"] * pull * np.abs(share))
     radius = found["contact_radius"]
@@ -227,7 +211,24 @@ def margins(
             "radius_ratio": (radius - face) * curvature,
             "slide_ratio": found["slide"] * slip / radius,
         }
-    return {name: told[name] for name in names}
+    return {name: told[name] for name in grid.margins}
+
+
+def _margins_of(points: Distinct, without_compiler: bool) -> dict[str, NDArray[Any]]:
+    """Margins of distinct points in the units of the solver, and ``stick_zone``."""
+    from swtstudy.solver.margins import foreseen, margins_of
+
+    found: dict[str, NDArray[Any]] = {}
+    for rows in alike(points.rows):
+        for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
+            own = points_from(points.rows[some], points.definitions)
+            with np.errstate(all="ignore"):
+                made = foreseen(own) if without_compiler else margins_of(own)
+            approximately = 1.0 + (not is_plane(own.profile))
+            made["stick_zone"] = np.where(made["moved"] > 0.0, np.maximum(made["moved"], approximately), 0.0)
+            for name, values in made.items():
+                found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
+    return found
 
 
 def foreseen_lines(grid: Grid) -> tuple[str, ...]:
@@ -239,7 +240,7 @@ def foreseen_lines(grid: Grid) -> tuple[str, ...]:
     if grid.size > MOST_FORESEEN or not grid.margins:
         return ()
     found = margins(grid, without_compiler=True)
-    lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + _ROUNDING
+    lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + ROUNDING
     states = [REGIMES.index(name) for name in ("no_equilibrium", "stick")]
     arrays = {name: np.full(grid.size, np.nan) for name in SOLVED}
     arrays["regime"] = np.where(lost, *states).astype(np.int8)

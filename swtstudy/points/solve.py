@@ -119,7 +119,9 @@ def solve_grid(grid: Grid, rtol: float, asked: Request, lazy: Mapping[str, Any] 
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
         along = [xr.DataArray(np.arange(n), dims=d).chunk({d: lazy.get(d, n)}) for d, n in grid.sizes.items()]
         made = xr.apply_ufunc(
-            partial(_values_of_block, grid, rtol, asked),  # unlike a function in a function it can be pickled
+            partial(
+                _values_of_block, grid, rtol, asked, own
+            ),  # unlike a function in a function it can be pickled
             *along,
             output_core_dims=[*own.values()],
             dask="parallelized",
@@ -134,12 +136,11 @@ def solve_grid(grid: Grid, rtol: float, asked: Request, lazy: Mapping[str, Any] 
 
 
 def _values_of_block(
-    grid: Grid, rtol: float, asked: Request, *positions: IndexArray
+    grid: Grid, rtol: float, asked: Request, own: Mapping[str, tuple[str, ...]], *positions: IndexArray
 ) -> tuple[NDArray[Any], ...]:
-    """Values of a block of the grid, from positions along its dimensions."""
+    """Values of a block of the grid by ``own`` names and dimensions, from positions along its dimensions."""
     places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
     _, arrays = _solved(grid, rtol, asked, places.ravel())
-    own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
     sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
     return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
 

@@ -28,8 +28,8 @@ BESIDE_TIP = 10.0 * INNERMOST
 BULK_SHIFT_ERRORS = {0.1: (0.054, 0.057), 0.5: (0.21, 0.24), 1.0: (0.32, 0.38)}
 #: Where the stick zone is in s, as flags of ``stick_zone``.
 IN_PLACE, _, APPROXIMATE = range(len(ZONES))
-#: Rounding of a ratio that is 1.
-_ROUNDING = 1e-9
+#: Rounding of a ratio of a force to μ F_N that is 1.
+ROUNDING = 1e-9
 
 
 class Limit(NamedTuple):
@@ -130,20 +130,25 @@ def _found(dataset: xr.Dataset) -> Iterator[Finding]:
         place = _place(dataset, values)
         line = "; ".join(filter(None, (line + f",{place}" * bool(place), limit.consequence)))
         yield f"{limit.short}{_where(out)} ({worst} {limit.of})", f"{limit.words}{_where(out)}: {line}"
-    if "stick_zone" in dataset:
-        zone = _values(dataset, "stick_zone")
-        moved, left = zone != IN_PLACE, (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
-        if moved.any() and left.any():
-            words = f"stick zone left in place{_where(left)}, moved by the bulk stress{_where(moved)}"
-            yield words, words
-        if (some := zone == APPROXIMATE).any():
-            words = "the rise of the stress at the edge in tension is right within 4 %, or within 9 % where "
-            words += "the bulk stress follows the tangential load but nearly"
-            yield None, f"stick zone moved approximately{_where(some)}: {words}"
+    yield from _stick_zones(dataset)
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         pressure = dataset.peak_pressure
         words = f"{pressure.name} up to {_number(pressure.max())}{unit_of(pressure)}"
         yield None, f"{words}; whether that yields is unknown without a yield_strength"
+
+
+def _stick_zones(dataset: xr.Dataset) -> Iterator[Finding]:
+    """Points with the stick zone in its place among moved ones, and points at which it is moved roughly."""
+    zone = _values(dataset, "stick_zone")
+    left = (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
+    moved, roughly = zone > IN_PLACE, zone == APPROXIMATE
+    if moved.any() and left.any():
+        words = f"stick zone left in place{_where(left)}, moved by the bulk stress{_where(moved)}"
+        yield words, words
+    if roughly.any():
+        words = "the rise of the stress at the edge in tension is right within 4 %, or within 9 % where "
+        words += "the bulk stress follows the tangential load but nearly"
+        yield None, f"stick zone moved approximately{_where(roughly)}: {words}"
 
 
 def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
@@ -176,7 +181,7 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     """Say which force is too large at points in no equilibrium."""
     ratio = np.where(lost, _values(dataset, "prescribed_force_ratio", 0.0), 0.0)
     worst, name = ratio.max(), "tangential_force_amplitude"
-    if not worst > 1.0 + _ROUNDING:
+    if not worst > 1.0 + ROUNDING:
         return ": the normal force pulls at some instant, or the bodies never touch"
     place = _place(dataset, ratio, besides=(name, "body"))
     if not np.isfinite(worst):

@@ -127,7 +127,7 @@ NamedValues = dict[str, tuple[Value, ...]]
 DEGREES = ("degrees", "deg", "°")
 
 #: No definitions.
-NOTHING: Mapping[str, Definition] = {}
+UNDEFINED: Mapping[str, Definition] = {}
 
 #: Names of the parameters that are numbers: they can have any value between two others.
 NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
@@ -151,7 +151,7 @@ def press_steadily(loads: Iterable[object]) -> bool:
     return all(getattr(load, "normal_ends", None) == (0.0, 0.0) for load in loads)
 
 
-def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:
+def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = UNDEFINED) -> Value:
     """The value of a parameter, from a number, a string such as "pi/2" or "3/2", or a name.
 
     Parameters
@@ -300,8 +300,7 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = AXIS_TOLERA
 
 def index_at(values: xr.DataArray | xr.Variable, flat: int) -> dict[str, int]:
     """Index along each dimension of a place among the flattened values."""
-    index = np.unravel_index(flat, values.shape) if values.ndim else ()
-    return dict(zip(map(str, values.dims), map(int, index), strict=True))
+    return dict(zip(map(str, values.dims), map(int, np.unravel_index(flat, values.shape)), strict=True))
 
 
 def unit_of(values: xr.DataArray) -> str:

@@ -58,8 +58,8 @@ class AtRest:
         names = family_of(profile).shape
         values = [np.atleast_1d(np.asarray((shape or {})[name], float))[:, None] for name in names]
         #: Largest wave number.
-        self._waves = 0.0
-        if "wavelength" in names:
+        self._waves, self._is_wavy = 0.0, "wavelength" in names
+        if self._is_wavy:
             k = wave_number(*values)
             values[0] = np.where(k > SHORT, 0.0, values[0])
             self._waves = float(k[k <= SHORT].max(initial=0.0))
@@ -82,11 +82,8 @@ class AtRest:
             n = self._values[0]
             depth = s**n
             return depth, (0.5 * MEAN_LOAD * depth if self.plane else n / (n + 1.0) * s * depth)
-        largest, b = float(s.max(initial=0.0)), self.flat_radius
-        halvings = 0.0
-        if self._form.faced and largest > 0.0 and b.any():
-            halvings = min(np.log2(largest / b[b > 0.0].min()) + BESIDE, HALVINGS)
-        node, weight = _rule(self._panels(largest), max(int(halvings), 0))
+        largest = float(s.max(initial=0.0))
+        node, weight = _rule(self._panels(largest), self._halvings(largest))
         at = s[..., None] * node
         rate = self.density(at) * weight
         depth = s * rate.sum(axis=-1)
@@ -148,6 +145,14 @@ class AtRest:
     def _panels(self, largest: float) -> int:
         """Even panels on the way up to s."""
         return OF_TABLE if self._table else 1 + int(self._waves * largest / PHASE)
+
+    def _halvings(self, largest: float) -> int:
+        """Halvings towards 0 on the way up to s: none of waves, all where no face says how many."""
+        if not self._form.faced:
+            return 0 if self._is_wavy else HALVINGS
+        b = self.flat_radius[self.flat_radius > 0.0]
+        halvings = np.log2(largest / b.min()) + BESIDE if largest > 0.0 and b.size else 0.0
+        return int(min(max(halvings, 0.0), HALVINGS))
 
     def _radius_where(self, which: int, goal: FloatArray) -> FloatArray:
         """Radius where G (0) or half of a force (1) has a value: Newton's method in logarithms."""

@@ -19,12 +19,12 @@ from swtstudy.vocabulary.derived import lacking
 from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, LETTERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import COUNTED, EVERY_VARIABLE, Request
+from swtstudy.vocabulary.quantities import COUNTED, EVERY_VARIABLE, SOLVED, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
 #: The data variables of an archive.
-VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
+VARIABLES = (*SOLVED, "status", "run")
 
 #: Key, found and allowed of mistakes.
 Wrong = Iterator[tuple[str, str, str]]
@@ -36,6 +36,8 @@ Axis = Annotated[str, "the name of an axis"]
 OtherAxis = Annotated[str | None, "the name of an axis"]
 Text = Annotated[str | None, "a text"]
 Flag = Annotated[StrictBool, "true or false"]
+_KINDS = "; ".join(f"{name}: {each.words}" for name, each in FIGURES.items()) + "."
+Kind = Annotated[str, "a text", Field(description=_KINDS, json_schema_extra={"enum": [*FIGURES]})]
 _EITHER = [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]
 Quantities = Annotated[
     tuple[str, ...],
@@ -66,9 +68,7 @@ class FigureLayout:
     y: Quantities = ("s",)
     title: Text = None
     """Title over the figure."""
-    kind: Annotated[str, "a text", Field(json_schema_extra={"enum": [*FIGURES]})] = "lines"
-    """Lines over x, or x upright over life; contours or a heat map over x and vertical; scatter or histogram
-    of a sample."""
+    kind: Kind = "lines"
     vertical: OtherAxis = None
     """Axis along the vertical axis of contours or a heat map."""
     regimes: Flag = False

@@ -72,12 +72,15 @@ class Drawing(NamedTuple):
         The keys of a figure that it has none of, and the reason.
     over
         Words for what it is drawn over, instead of x.
+    drawn_by
+        File and function in ``figures``.
     """
 
     of: str
     words: str
     lacks: Mapping[str, str]
     over: str = ""
+    drawn_by: str = "draw:draw_rows"
 
 
 #: The kinds of figures.

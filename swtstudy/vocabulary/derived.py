@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, Criterion
 from swtstudy.vocabulary.files import read_table
-from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
+from swtstudy.vocabulary.quantities import ATTRIBUTES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request, error_of
 
 #: Per cent of the bodies that have a crack before the life of that name.
 PERCENTS = (10, 50, 90)
@@ -120,9 +120,8 @@ _ENDS = {"s": ""} | {name: name.removeprefix("s") for name, row in NONLOCAL.item
 DERIVED: dict[str, Derived] = {row.name: row for row in _rows()}
 #: Names of all lives that there may be.
 LIVES = tuple(name for name, row in DERIVED.items() if row.kind == LIFE)
-#: Names without units, for variables that have units in a study with units.
-_WITH_UNITS = ("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift")
-NORMALISED = {name: f"normalised_{name}" for name in (*_WITH_UNITS, *STICK_ENDS)}
+#: Names without units, for variables whose names mean values with units in a study with units.
+NORMALISED = {name: f"normalised_{name}" for name in (*EVERY_VARIABLE, *ATTRIBUTES) if name in DERIVED}
 #: Words for the facts of contacts that data variables need.
 _FACTS = {
     "materials": "fatigue constants ([material], swtstudy.FatigueConstants)",

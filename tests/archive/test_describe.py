@@ -12,7 +12,8 @@ import pytest
 import stand_in
 import xarray as xr
 from command import call
-from folders import sections
+from folders import DATA, sections
+from kept import Kept
 from made_up import having
 from real import CONTACT, CRITERIA, STUDY
 from stand_in import Points, Solution
@@ -107,10 +108,10 @@ SAID = sections("info.txt")
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_info_says_all_that_is_known_of_a_study(tmp_path: Path, name: str) -> None:
+def test_info_says_all_that_is_known_of_a_study(kept: Kept, tmp_path: Path, name: str) -> None:
     text, solver = STUDIES[name]
     stand_in.computed(text, tmp_path / "mine.nc", solver)
-    assert lines(call("info", tmp_path / "mine.nc").output) == SAID[name]
+    kept.text(DATA / "info.txt", SAID[name], lines(call("info", tmp_path / "mine.nc").output))
 
 
 def lacking(*names: str) -> Callable:

@@ -10,7 +10,8 @@ import pytest
 import real
 import stand_in
 from command import call
-from folders import sections
+from folders import DATA, sections
+from kept import Kept
 from real import CONTACT
 
 from swtstudy import Study, run
@@ -120,7 +121,9 @@ def replayed(session: str) -> str:
 
 
 @pytest.mark.parametrize("name", SESSIONS)
-def test_a_session_prints_what_it_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def test_a_session_prints_what_it_printed(
+    kept: Kept, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr(stand_in.QUANTITIES, stand_in.asked)
@@ -135,4 +138,4 @@ def test_a_session_prints_what_it_printed(tmp_path: Path, monkeypatch: pytest.Mo
     if name == "outdated":
         run(Study.from_toml("line.toml"), "line.nc")
         monkeypatch.setattr("swtstudy.archive.run.SOLVER_VERSION", "0")
-    assert replayed(SESSIONS[name]).rstrip() == SESSIONS[name].rstrip()
+    kept.text(DATA / "sessions.txt", SESSIONS[name].rstrip(), replayed(SESSIONS[name]).rstrip())

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from folders import ROOT, STUDIES
+from kept import Kept
 
 
 @pytest.mark.pages
@@ -49,7 +50,7 @@ def test_types_are_told_to_those_who_import_the_package():
     assert (importlib.resources.files("swtstudy") / "py.typed").is_file()
 
 
-def test_pages_to_be_read_in_a_clone_are_as_they_are_made_now():
+def test_pages_to_be_read_in_a_clone_are_as_they_are_made_now(kept: Kept):
     made = pytest.importorskip("build_steps.generate")
     for page in made.READABLE:
-        assert page.read_text(encoding="utf-8") == made.filled(page), "build the documentation anew"
+        kept.text(page, page.read_text(encoding="utf-8"), made.filled(page))

@@ -90,6 +90,16 @@ def test_audited_points_are_read_as_they_were_written(audited, tmp_path):
         np.testing.assert_array_equal(there[name], written[name])
 
 
+def test_an_audit_may_be_older_than_a_shape_parameter(audited, tmp_path):
+    study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
+    found = audit_study(study, path, points=3, workers=1)
+    old = found.flat_half_width
+    assert not old.any()
+    save(found.drop_vars("flat_half_width"), path)
+    xr.testing.assert_identical(audit_study(study, path, points=3, workers=1).flat_half_width, old)
+    assert len(audited) == 3
+
+
 def test_other_files_are_not_taken_for_an_audit(tmp_path):
     save(made_up_audit().drop_vars("s_body"), tmp_path / "other.nc")
     with pytest.raises(ValueError, match="not an audit"):

@@ -14,6 +14,9 @@ from told import refused
 
 import swtstudy
 from swtstudy import Study, TabulatedProfile
+from swtstudy.solver.at_rest import AtRest
+from swtstudy.vocabulary.choices import FAMILIES, Family
+from swtstudy.vocabulary.families import FORMS, Form
 
 Array = NDArray[np.float64]
 #: Heights over lengths: real contacts are flat. Lengths are in a_H, heights in δ0 and forces in E* δ0 a_H.
@@ -44,6 +47,18 @@ def pressure(name: str, shape: dict[str, float], x: Array, **load: float) -> Arr
     """The pressure at rest, at the mean load."""
     field = swtstudy.stress_field(x, 0.0, 0.0, time=0.0, profile=name, **shape, **load)
     return -field.sigma_zz.values
+
+
+@pytest.mark.parametrize("b", [1e-3, 0.5])
+def test_a_new_form_needs_no_panels_of_its_own(monkeypatch: pytest.MonkeyPatch, b: float) -> None:
+    """A cone with a round tip, f = b (√(r² + b²) − b)."""
+    density = lambda s, b: b * (np.arctan2(s, b) + s * b / (s * s + b * b))  # noqa: E731
+    monkeypatch.setitem(FORMS, "cone", Form(density))
+    monkeypatch.setitem(FAMILIES, "cone", Family("cone", ("tip",)))
+    radius = np.array([[0.1, 1.0, 3.0]])
+    np.testing.assert_allclose(
+        AtRest("cone", {"tip": b}).depth(radius), b * radius * np.arctan(radius / b), 1e-12
+    )
 
 
 def test_every_profile_has_an_oracle() -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 from folders import DATA
+from kept import Kept
 from real import CONSTANTS, UNITS
-from told import refused
+from told import refused, set_in
 
 from swtstudy import Study
 
@@ -30,14 +31,18 @@ SHORT = {
     "{forces}": _FORCES,
     "{folder}": str(Path.cwd()),
 }
-TOLD = (DATA / "told_of_studies.txt").read_text(encoding="utf-8").strip().split("\n\n")
+TEXTS = DATA / "told_of_studies.txt"
+TOLD = TEXTS.read_text(encoding="utf-8").strip().split("\n\n")
 
 
 @pytest.mark.parametrize("case", TOLD, ids=range(len(TOLD)))
-def test_whole_messages(case: str) -> None:
-    for words, meant in SHORT.items():
-        case = case.replace(words, meant)
+def test_whole_messages(kept: Kept, case: str) -> None:
     text, *lines = re.sub(r"\n  ", " ", case).split("\n» ")
+    head = case.partition("\n» ")[0]
+    for words, meant in SHORT.items():
+        text = text.replace(words, meant)
     title = "" if text.startswith("title") else 'title = "t"\n'
     told = refused("", Study.from_text, f"{title}{text}\n", "s").mistakes
-    assert [*map(str, told)] == [f"s: {line}" for line in lines]
+    found = [str(each).removeprefix("s: ").replace(str(Path.cwd()), "{folder}") for each in told]
+    if found != lines:
+        kept.text(TEXTS, case, f"{head}\n{set_in([f'» {each}' for each in found])}")

@@ -6,7 +6,8 @@ import pytest
 import stand_in
 import xarray as xr
 from asking import EVERY
-from folders import sections
+from folders import DATA, sections
+from kept import Kept
 from real import CONTACT, CRITERIA
 
 import swtstudy
@@ -67,9 +68,9 @@ def attributes(dataset: xr.Dataset) -> str:
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_all_attributes_are_these(tmp_path: Path, name: str) -> None:
+def test_all_attributes_are_these(kept: Kept, tmp_path: Path, name: str) -> None:
     found = stand_in.computed(STUDIES[name], tmp_path / "a.nc")
-    assert attributes(found).strip() == SAID[name].strip()
+    kept.text(DATA / "attributes.txt", SAID[name].strip(), attributes(found).strip())
 
 
 def test_what_is_not_always_there_is_not_minimised() -> None:
