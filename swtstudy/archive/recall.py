@@ -97,7 +97,8 @@ def _check_physical(grid: PhysicalGrid, report: Report) -> None:
 
 def _read_coordinates(dataset: xr.Dataset, own: Mapping[str, Parameter], report: Report) -> NamedValues:
     """Values of parameters that are coordinates; the first wrong value of each is told."""
-    known, found = defined_in(dataset.attrs), dict[str, tuple[Value, ...]]()
+    known = defined_in(dataset.attrs)
+    found: NamedValues = {}
     for name, row in own.items():
         dims = tuple(map(str, dataset[name].dims))
         if dims not in ((), (name,), (SAMPLE,)) or not {*dims} <= {*dataset.s.dims}:

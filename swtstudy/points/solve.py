@@ -118,10 +118,8 @@ def solve_grid(grid: Grid, rtol: float, asked: Request, lazy: Mapping[str, Any] 
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
         along = [xr.DataArray(np.arange(n), dims=d).chunk({d: lazy.get(d, n)}) for d, n in grid.sizes.items()]
-        made = xr.apply_ufunc(
-            partial(
-                _values_of_block, grid, rtol, asked, own
-            ),  # unlike a function in a function it can be pickled
+        made = xr.apply_ufunc(  # of a part: unlike a function in a function it can be pickled
+            partial(_values_of_block, grid, rtol, asked, own),
             *along,
             output_core_dims=[*own.values()],
             dask="parallelized",
