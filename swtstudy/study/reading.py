@@ -165,6 +165,9 @@ class StudyReader:
         signal = signal_from(self.folder / str(table.file), name, table, self.units, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}
+        if kept and "bulk_stress_ratio" in given:
+            words = "bulk_stress_ratio gives each cycle a mean bulk stress by its own range"
+            warnings.warn(f"{name}: {words}; bulk_stress_mean is the same for all", stacklevel=4)
         single = {each.name: each for each in signal.loops}
         self.cycles[name] = [*single]
         for each in (each for each in single if each in parts.loads):
