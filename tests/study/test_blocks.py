@@ -151,6 +151,7 @@ def test_cycles_that_are_kept_are_those_of_their_load_alone(tmp_path: Path) -> N
 
 def test_a_mean_bulk_stress_of_each_kept_cycle_is_told(tmp_path: Path) -> None:
     (tmp_path / "rig.csv").write_text("normal,tangential,bulk\n" + "200,0,0\n200,60,40\n200,-60,-40\n" * 2)
-    study = f'{RIG.rstrip()}\nbulk_stress_amplitude = 1\nbulk_stress_ratio = 0\n[loads.rig]\n{RECORD}columns = {{ bulk = "bulk" }}\n'
+    study = f"{RIG}bulk_stress_amplitude = 1\nbulk_stress_ratio = 0\n"
+    study += f'[loads.rig]\n{RECORD}columns = {{ bulk = "bulk" }}\n'
     with pytest.warns(UserWarning, match="each cycle a mean bulk stress by its own range; bulk_stress_mean"):
         Study.from_text(study + block("rig", 25), "s", tmp_path)
