@@ -345,6 +345,12 @@ def signal_from(
     if samples < 2.0 - 1e-9:
         raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
     raw = Signal(name, time, values, period, count, given.absolute, highest)
+    if key == "recorded_cycles" and count > 1 and raw.gaps.size:
+        found = (
+            f"{count}, and a gap of {np.diff(time)[raw.gaps[0]]:.4g} in the time, at {time[raw.gaps[0]]:.4g}"
+        )
+        likely = f"{step * len(time) / count:.5g} if nothing else is lost"
+        raise refused(key, found, f"period = the length of a cycle, {likely}")
     signal = replace(raw, values=_without_spikes(raw, rows, given.despike))
     if highest and not cycles.determined(signal.phase, highest):
         allowed = "less than half as many as samples at different phases of the cycle"

@@ -327,6 +327,15 @@ def test_a_long_pause_leaves_the_cycle_as_it_is(tmp_path: Path, pause: float, de
     np.testing.assert_allclose(signal.mean_cycle[:, 1], rows[:100, 2], atol=1e-9)
 
 
+def test_a_number_of_cycles_does_not_tell_their_length_beside_a_gap(tmp_path: Path) -> None:
+    time = np.arange(2000) / 100.0
+    wave = np.sin(2.0 * np.pi * time)
+    time[1000:] += 0.3
+    write(tmp_path / "gap.csv", np.stack([time, 200.0 + 0.1 * wave, wave], axis=1), "time,normal,tangential")
+    words = "recorded_cycles: found 20, and a gap of 0.31 in the time, at 9.99; allowed: period = .*, 1 if"
+    refused(words, read_signal, tmp_path / "gap.csv", time="time", absolute=True, recorded_cycles=20)
+
+
 def test_cycles_with_a_gap_are_left_out(tmp_path: Path) -> None:
     time = np.arange(800) / 2000.0
     wave = np.sin(40.0 * np.pi * time)
