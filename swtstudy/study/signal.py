@@ -375,6 +375,9 @@ def _refuse_unlike(signal: Signal, key: str) -> None:
         single = "keep_cycles = true in a block of single cycles"
         noise = f"scale = {{ {NAMES[k]} = 0 }} if that column is noise"
         allowed = f"that of the record{_better(signal, key)}; {single}; {noise}"
+        if signal.gaps.size:
+            gap = f"the gap in the time, at {signal.time[signal.gaps[0]]:.4g}"
+            allowed += f"; a file of the rows on one side of {gap}"
         raise refused(key, f"{found}{moves[k]:.3g}", allowed)
 
 

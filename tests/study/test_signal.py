@@ -334,6 +334,8 @@ def test_a_number_of_cycles_does_not_tell_their_length_beside_a_gap(tmp_path: Pa
     write(tmp_path / "gap.csv", np.stack([time, 200.0 + 0.1 * wave, wave], axis=1), "time,normal,tangential")
     words = "recorded_cycles: found 20, and a gap of 0.31 in the time, at 9.99; allowed: period = .*, 1 if"
     refused(words, read_signal, tmp_path / "gap.csv", time="time", absolute=True, recorded_cycles=20)
+    words = "a file of the rows on one side of the gap in the time, at 9.99$"
+    refused(words, read_signal, tmp_path / "gap.csv", time="time", absolute=True, period=1)
 
 
 def test_cycles_with_a_gap_are_left_out(tmp_path: Path) -> None:
