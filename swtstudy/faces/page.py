@@ -219,7 +219,9 @@ def _where(dataset: xr.Dataset, one: xr.Dataset) -> Markup:
     """The parameters of a point that differ from point to point."""
     dims = {*dataset.s.dims}
     own = [name for name in map(str, dataset.coords) if name in AXES and {*dataset[name].dims} & dims]
-    return Markup(", ").join(html.place_html(one[name]) for name in own if dataset[name].size > 1)
+    return Markup(", ").join(
+        html.place_html(one[name]) for name in own if dataset[name].size > 1 and not one[name].ndim
+    )
 
 
 def _extremes(dataset: xr.Dataset) -> Iterator[dict[str, Any]]:

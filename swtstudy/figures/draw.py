@@ -157,9 +157,13 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
     shown = {"value": values, "error": quantity_error(dataset, y)}
     if {f"{y}_10", f"{y}_90"} <= {*map(str, dataset.data_vars)}:
         shown |= {"early": dataset[f"{y}_10"], "late": dataset[f"{y}_90"]}
+    # A value of a sequence of blocks is of all loads together.
+    of_loads = [dim for dim in dataset.s.dims if dim not in values.dims] if "s" in dataset else []
     if "regime" in dataset:
-        shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
-    if "stick_zone" in dataset:
+        regime = known_regime(dataset)
+        first = regime.isel(dict.fromkeys(of_loads, 0), drop=True)
+        shown["regime"] = first.where((regime == first).all(of_loads)).assign_attrs(dataset.regime.attrs)
+    if "stick_zone" in dataset and not of_loads:
         shown["zone"] = dataset.stick_zone.broadcast_like(values)
     if validity:
         require(dataset, "s")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import stand_in
 import told
+from command import succeeded
 from real import ALLOY, ALUMINIUM, SPHERE
 from told import refused
 
@@ -117,6 +118,20 @@ def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
     lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
     np.testing.assert_allclose(lines["running"], results.damage_share.sel(load="running"))
     assert Study.from_text(text.replace('hue = "load"\n', "").replace("damage_share", "repetitions")).figure
+
+
+def test_repetitions_are_drawn_and_reported(tmp_path: Path) -> None:
+    """Of loads with stick zones that differ: a bulk stress moves that of the second one alone."""
+    loads = "[loads.one]\nvertices = [[0, 0.5], [0, -0.5]]\n"
+    loads += "[loads.other]\nvertices = [[0, 1, 1], [0, -1, -1]]\n" + block("one", 1000) + block("other", 10)
+    fixed = "normal_force = 200\ntangential_force_amplitude = 60\nbulk_stress_amplitude = 20\n"
+    text = RIG.replace("friction = 0.5\n", "") + fixed + "[axes]\nfriction = [0.5, 0.6, 0.7]\n" + loads
+    text += '[figure]\nx = "friction"\ny = "repetitions"\nvalidity = true\nregimes = true\n'
+    results = run(Study.from_text(text), tmp_path / "several.nc")
+    assert np.ptp(results.stick_zone.values) > 0
+    (axes,) = results.swt.figure().axes
+    np.testing.assert_allclose(axes.get_lines()[0].get_ydata(), results.repetitions)
+    succeeded("report", tmp_path / "several.nc", "-o", tmp_path / "several.html")
 
 
 @pytest.mark.slow
