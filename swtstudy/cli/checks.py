@@ -63,12 +63,14 @@ def sensitivity(
     click.echo("\n".join(map(str, (target, *targets.values()))))
 
 
+#: The lives that are fitted unless others are named.
+FITTED = "cycles_volume"
+
+
 @click.command()
 @terminal.with_study
 @click.argument("tests")
-@click.option(
-    "--y", default="cycles_volume", show_default=True, help="Which lives: cycles_volume, _point or _line."
-)
+@click.option("--y", default=FITTED, show_default=True, help="Which lives: cycles_volume, _point or _line.")
 @click.option("--friction", is_flag=True, help="Fit friction, too.")
 @terminal.with_confidence
 @terminal.with_results
@@ -80,7 +82,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     is a CSV file with a row for each test: parameters, in the units of the study, and life, the load cycles
     to a crack; of a run-out the cycles that it survived, as >1e7 or with 1 in a column runout. Maximum
     likelihood of the logarithms of the lives. Writes the fit as netCDF and the figure of predicted over
-    observed lives: NAME_fit, with --friction NAME_fit_friction.
+    observed lives: NAME_fit, with --friction NAME_fit_friction, of cycles_point NAME_fit_point.
 
     \b
     Examples:
@@ -90,7 +92,8 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     from swtstudy.figures.statistics import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
 
-    stem = f"{Path(study).stem}_fit{'_friction' * friction}"
+    mean = "" if y == FITTED else f"_{y.replace('cycles_', '')}"
+    stem = f"{Path(study).stem}_fit{mean}{'_friction' * friction}"
     targets = {end: Path(results) / f"{stem}{end}" for end in (".nc", ".png")}
     check_writable(*targets.values())
     found = swtstudy.fit(study, tests, y=y, friction=friction, confidence=confidence)

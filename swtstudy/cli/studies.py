@@ -21,6 +21,7 @@ from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import duration, number_of, numbers_words, unit_words
 
 if TYPE_CHECKING:
+    from swtstudy.points.grid import Grid
     from swtstudy.study.definition import Study
 
 #: Sizes of a contact at rest, which tell a wrong unit at a glance, and their kinds; of so many contacts.
@@ -85,6 +86,8 @@ def validate(studies: tuple[str, ...]) -> None:
         with report:
             archive_paths([source], "")
             terminal.say(words, 2)
+            if at_rest := rest_words(grid):
+                terminal.say(f"contact at rest: {at_rest}", 2)
             for line in foreseen_lines(grid):
                 click.echo(f"validity: {line}", err=True)
     report.refuse()
@@ -117,20 +120,14 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
     """Describe a run in labels and words, with its time from a few points that are solved."""
     from swtstudy.archive.run import Work, estimate
-    from swtstudy.study.units.grid import PhysicalGrid
 
     work = Work(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
     count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
     panels = f" in {count} panels" if count > 1 else ""
     yield "prescribed", grid.control.name
-    if isinstance(grid, PhysicalGrid) and grid.at_rest.size <= MOST_CONTACTS:
-        sizes = []
-        for name, kind in AT_REST.items():
-            found = grid.each(attrgetter(name)).values
-            ends = dict.fromkeys(numbers_words([found.min(), found.max()]))
-            sizes.append(f"{name} {' to '.join(ends)} {grid.labels.label(kind)}".rstrip())
-        yield "contact at rest", ", ".join(sizes)
+    if at_rest := rest_words(grid):
+        yield "contact at rest", at_rest
     yield "archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"
     yield "points", f"{grid.size}{panels}"
     if study.asked.items:
@@ -152,6 +149,20 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, st
         each = f"{1e3 * seconds / todo:.3g} ms a point, from {number_of(timed, 'point')} timed"
         wall = duration(seconds / min(workers, parts))
         yield "time", f"about {wall} with {workers} workers ({each})"
+
+
+def rest_words(grid: Grid) -> str:
+    """Sizes of real contacts at rest, in words; empty without units, and for very many contacts."""
+    from swtstudy.study.units.grid import PhysicalGrid
+
+    if not isinstance(grid, PhysicalGrid) or grid.at_rest.size > MOST_CONTACTS:
+        return ""
+    sizes = []
+    for name, kind in AT_REST.items():
+        found = grid.each(attrgetter(name)).values
+        ends = dict.fromkeys(numbers_words([found.min(), found.max()]))
+        sizes.append(f"{name} {' to '.join(ends)} {grid.labels.label(kind)}".rstrip())
+    return ", ".join(sizes)
 
 
 @click.command("list")

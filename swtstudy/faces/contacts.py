@@ -149,7 +149,9 @@ class PhysicalContact:
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters, which give its lengths.
 
-        A ``normal_sensitivity`` is the contact's own k.
+        All others stay as they are without units: with another friction a tangential force that is given
+        over μ F0 is another force. `physical` takes values with units. A ``normal_sensitivity`` is the
+        contact's own k.
 
         Raises
         ------
@@ -165,7 +167,8 @@ class PhysicalContact:
         own = self.parameters(grid.bulk_stress_body + 1)
         found, report = read_grid({n: v for n, v in own.items() if n not in replaced} | parameters, {})
         if found is None:
-            raise StudyError(report)
+            without = "; without units, as swtstudy.solve has it: swtstudy.physical takes units"
+            raise StudyError([replace(each, allowed=each.allowed + without) for each in report])
         fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
         if "profile" not in parameters:
             fixed["profile"] = rest.profile

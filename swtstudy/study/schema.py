@@ -135,7 +135,7 @@ def _description(parameter: Parameter) -> str:
         return f"{parameter.meaning}; with units only{f', a {kind}' if kind else ''}"
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
-    units = f"with units a {kind}" if kind else ""
+    units = f"with units a {kind}{', which stays there' * bool(parameter.note)}" if kind else ""
     words = [f"{parameter.described}: {parameter.allowed}{of}", parameter.note, units]
     return "; ".join(filter(None, words))
 

@@ -140,11 +140,13 @@ class Signal:
             mean = float(np.sum(np.diff(at) * 0.5 * sums) / self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
-        if not mean > 0.0:
+        lowest, least = self.values[:, :2].min(axis=0).tolist()
+        if not mean > 0.0 or lowest < 0.0 < least:
             hint = "where compression is negative: scale = { normal = -1 }, or minus its scale"
-            if (least := float(self.values[:, 1].min())) > 0.0:
+            if least > 0.0:
                 hint = f"tangential loads are {least:.3g} and more: are the columns exchanged?"
-            raise refused("absolute", f"a mean normal load of {mean:.3g}", f"a mean above 0; {hint}")
+            found = f"a mean normal load of {mean:.3g}, down to {lowest:.3g}"
+            raise refused("absolute", found, f"a mean above 0; {hint}")
         return mean
 
     @cached_property
@@ -343,7 +345,11 @@ def signal_from(
         own = given.frequency or period
         raise refused(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")
     if samples < 2.0 - 1e-9:
-        raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
+        found = f"{samples:.2g} samples a cycle: a cycle takes {period:.3g}, the time steps by {step:.3g}"
+        allowed = (
+            "2 samples a cycle at least; both in one unit, such as scale = { time = 1e-6 } for µs beside Hz"
+        )
+        raise refused(key, found, allowed)
     raw = Signal(name, time, values, period, count, given.absolute, highest)
     if key == "recorded_cycles" and count > 1 and raw.gaps.size:
         found = (

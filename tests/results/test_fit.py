@@ -476,6 +476,8 @@ def test_the_command_writes_the_figure(rig, monkeypatch, tmp_path):
     assert "of 6 tests 4 within a factor of 2, 6 within a factor of 5" in done.stdout
     assert (tmp_path / "rig_fit.nc").exists()
     assert (tmp_path / "rig_fit.png").exists()
+    other = ["--y", "cycles_point", "--results", str(tmp_path)]
+    assert "rig_fit_point.nc" in CliRunner().invoke(main, ["fit", str(rig[0]), str(file), *other]).stdout
     found = swtstudy.fit(rig[0], file)
     assert fit_lines(found)[0] == done.stdout.splitlines()[0]
     # Friction may be a column of the tests, and is no result then.

@@ -14,8 +14,8 @@ MATERIAL = f"[material]\n{real.CONSTANTS}"
 SHEAR = "shear_strength = 50000\nshear_strength_exponent = -0.1\nshear_ductility = 0.5\n"
 SHEAR += "shear_ductility_exponent = -0.6\nyield_strength = 300\n"
 THRESHOLD = "[material]\nthreshold_stress_intensity_range = {}\nfatigue_limit_range = 200\n"
-DISTANCE = "(ΔK_th/Δσ_0)²/π of ranges at {}: {} MPa√mm and 200 MPa"
-UNSAID = "one load ratio, which load_ratio would name"
+DISTANCE = "of the point method: (ΔK_th/Δσ_0)²/π with the ranges {1} MPa√mm and 200 MPa at {0}"
+UNSAID = "one load ratio"
 RATIO = '[axes]\nnormal_force = [200, 300]\n[figure]\nx = "normal_force"\ny = "s/s(normal_force=200)"\n'
 SPHERE = CONTACT.replace("radius = 50", "radius = 0.02")
 
@@ -70,12 +70,12 @@ f"{MATERIAL}yield_strength = 35000\nfindley_limit = [0.2, 200]\n{CONTACT}"
 f'[material]\n{SHEAR}{CONTACT}criterion = "fatemi_socie"\nnormal_sensitivity = 0.3\n'
 » material.shear_strength 50000 over young_modulus 73100 is 0.684, of metals 0.0002 to 0.05: are both in MPa?
 THRESHOLD.format(3) + CONTACT
-» critical_distance = 7.162e-05 mm, (ΔK_th/Δσ_0)²/π of ranges at one load ratio, which load_ratio would name:
-    3 MPa√mm and 200 MPa; metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm
+» critical_distance = 7.162e-05 mm, of the point method: (ΔK_th/Δσ_0)²/π with the ranges 3 MPa√mm and 200 MPa
+    at one load ratio; metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm
 f"{THRESHOLD.format(1e3)}load_ratio = 0.1\n" + CONTACT.replace("= 200\n", "= 2e5\n").replace("= 50\n", "=
     5e3\n")
-» critical_distance = 7.958 mm, (ΔK_th/Δσ_0)²/π of ranges at the load ratio 0.1: 1000 MPa√mm and 200 MPa;
-    metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm
+» critical_distance = 7.958 mm, of the point method: (ΔK_th/Δσ_0)²/π with the ranges 1000 MPa√mm and 200 MPa
+    at the load ratio 0.1; metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm
 CONTACT.replace("friction = 0.5", "friction = 5") » s: friction 5: metals have some 0.1 to 1.5
 CONTACT.replace("normal_force = 200\n", "load = 'rig'\n") + "[loads.rig]\nvertices = [[190, -50], [210,
     50]]\nabsolute = true\n"
@@ -126,4 +126,4 @@ def test_units_without_a_size_have_no_metals() -> None:
     text = f"{real.UNITS}{THRESHOLD.format(3)}{CONTACT}".replace('"mm"', '"furlong"')
     assert told(text) == []
     metres = 'units = {length = "m", force = "N", stress = "Pa"}\n' + THRESHOLD.format(20) + CONTACT
-    assert told(metres)[0].endswith("20 Pa√m and 200 Pa; metals have 1e-06 to 0.003 m")
+    assert told(metres)[0].endswith("20 Pa√m and 200 Pa at one load ratio; metals have 1e-06 to 0.003 m")

@@ -296,6 +296,10 @@ def test_exchanged_columns_are_told(tmp_path: Path) -> None:
     write(tmp_path / "rig.csv", np.stack([60.0 * wave, 200.0 + 20.0 * wave], axis=1), "normal,tangential")
     signal = read_signal(tmp_path / "rig.csv", absolute=True)
     refused("tangential loads are 180 and more: are the columns exchanged", lambda: signal.mean_normal)
+    rows = np.stack([60.0 * wave + 1.0, 200.0 + 20.0 * wave], axis=1)  # about a small mean
+    write(tmp_path / "rig.csv", rows, "normal,tangential")
+    signal = read_signal(tmp_path / "rig.csv", absolute=True)
+    refused("normal load of 1, down to -58.* are the columns exchanged", lambda: signal.mean_normal)
 
 
 def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:

@@ -196,12 +196,10 @@ def _named(raw: Table, folder: Path, report: Report) -> list[dict[str, Any]]:
 def critical_distance(units: Units, intensity: float, limit: float, load_ratio: float | None = None) -> float:
     """L of a threshold and a fatigue limit, both ranges; a message tells it, a warning one of no metal."""
     length = (intensity / limit) ** 2 / math.pi
-    ratio = "one load ratio, which load_ratio would name"
-    if load_ratio is not None:
-        ratio = f"the load ratio {load_ratio:g}"
+    ratio = "one load ratio" if load_ratio is None else f"the load ratio {load_ratio:g}"
     words = (
-        f"critical_distance = {length:.4g} {units.length}, (ΔK_th/Δσ_0)²/π of ranges at {ratio}: "
-        f"{intensity:g} {units.stress}√{units.length} and {limit:g} {units.stress}"
+        f"critical_distance = {length:.4g} {units.length}, of the point method: (ΔK_th/Δσ_0)²/π with the "
+        f"ranges {intensity:g} {units.stress}√{units.length} and {limit:g} {units.stress} at {ratio}"
     )
     metre, (least, largest) = KNOWN["length"].get(units.length), USUAL["critical_distance"]
     if metre is None or least <= metre * length <= largest:

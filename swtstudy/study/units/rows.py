@@ -233,7 +233,7 @@ def rows(units: Units) -> dict[str, Parameter]:
             words = f"a {size}" if lower < 0.0 else f"a {size}, ≥ 0" if lower == 0.0 else f"a positive {size}"
             symbol = "u_A" if name == "tangential_amplitude" else row.symbol.split("/")[0]
             own |= {"units": label, "lower": lower, "upper": LARGEST, "open_lower": False}
-            own |= {"symbol": symbol, "words": words}
+            own |= {"symbol": symbol, "words": words, "note": ""}
         found[name] = replace(row, **own)
     return found
 
