@@ -20,7 +20,7 @@ from swtstudy.points.reading import OF_POINTS, dimensions_of, listed, read_dista
 from swtstudy.points.rules import doubts
 from swtstudy.points.solve import solve_grid
 from swtstudy.solver.table import TabulatedProfile
-from swtstudy.study.units import rows as units
+from swtstudy.study.units import rows as unit_rows
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     Values = FloatArray | xr.DataArray
 
 #: Sizes of a contact at rest.
-AT_REST = (*units.TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
+AT_REST = (*unit_rows.TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
 
 
 #: A table in other units: its fit takes time.
@@ -98,9 +98,9 @@ class PhysicalContact:
         """Kind, name, value and meaning of all that is known without solving."""
         grid = self.grid
         for name, each in given_values(grid).items():
-            if name not in units.TABLES["at_rest"]:
+            if name not in unit_rows.TABLES["at_rest"]:
                 yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
-        for name, meaning in units.TABLES["at_rest"].items():
+        for name, meaning in unit_rows.TABLES["at_rest"].items():
             found = np.unique(grid.each(attrgetter(name)))
             ends = dict.fromkeys(found[[0, -1]].tolist())
             yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
@@ -272,14 +272,14 @@ class PhysicalContact:
         if isinstance(s, xr.DataArray) and "body" in s.coords:
             if body is not None:
                 raise refused("body", literal(body), "nothing, since s has the coordinate body")
-            if not np.isin(s.body, units.LABELS).all():
+            if not np.isin(s.body, unit_rows.LABELS).all():
                 raise refused("body", f"the coordinate {literal(s.body.values.tolist())}", "1 and 2")
             bodies = s.body.broadcast_like(s).transpose(*s.dims).values
         elif body is None and not alike:
             allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
             raise refused("body", "nothing", allowed)
         else:
-            bodies = np.array(1 if body is None else units.checked_body(body))
+            bodies = np.array(1 if body is None else unit_rows.checked_body(body))
         with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
             shares = np.where(bodies == 2, self.moduli.swt_share(1), self.moduli.swt_share(0))
             of_body = not_negative("s", s) * shares
@@ -410,7 +410,7 @@ class PhysicalContact:
         with report:
             ranges, wrong = read_ranges(over, numbers)
             wrong.refuse()
-            replaced = {*ranges}.union(*(pair for pair in units.ONE_OF if {*pair} & {*ranges}))
+            replaced = {*ranges}.union(*(pair for pair in unit_rows.ONE_OF if {*pair} & {*ranges}))
             given = {**grid.fixed, **{name: [*two] for name, two in grid.pairs.items()}}
             fixed = {name: value for name, value in given.items() if name not in replaced}
             along = ranges | {name: [*values] for name, values in grid.axes.items() if name == "body"}
@@ -501,7 +501,7 @@ def _of_both(
     pair = tuple(given) if dimensions_of(given) == 1 and len(given) == 2 else (given, given)
     allowed = f"a {kind.__name__ if kind else 'positive stress'}, or a pair of them, one for each body"
     if kind is None:
-        wrong = [each for stress in pair for each in units.wrong_size(name, stress, allowed)]
+        wrong = [each for stress in pair for each in unit_rows.wrong_size(name, stress, allowed)]
         pair = tuple(map(plain_number, pair))
     else:
         sound = all(isinstance(one, kind) for one in pair)
@@ -530,10 +530,11 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
 _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
-@with_parameters(row for name, row in units.rows(units.Units()).items() if name != DISTANCE)
+@with_parameters(row for name, row in unit_rows.rows(unit_rows.Units()).items() if name != DISTANCE)
 def physical(
     *,
-    similar: Any = units.SIMILAR,
+    units: Mapping[str, str] | None = None,
+    similar: Any = unit_rows.SIMILAR,
     bulk_stress_body: Any = None,
     bodies: Any = None,
     yield_strength: Any = None,
@@ -549,6 +550,9 @@ def physical(
 
     Parameters
     ----------
+    units
+        Labels of length, force and stress, such as {"length": "mm", "force": "N", "stress": "MPa"}, for
+        results and figures; numbers are as they are.
     similar
         Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
     bulk_stress_body
@@ -607,29 +611,30 @@ def physical(
     >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """
-    report, optional = Report(), (*CONTACT_AXES, *units.OF_BODIES)
+    report, optional = Report(), (*CONTACT_AXES, *unit_rows.OF_BODIES)
     parameters = {n: value for n, value in parameters.items() if value is not None or n not in optional}
     for name in _ASKED:
         if name in parameters:
             report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
     about = ContactDetails(
+        unit_rows.Units() if units is None else unit_rows.read_units(units, report),
         yield_strengths=_of_both("yield_strength", yield_strength, report),
         findley_limits=_of_both("findley_limit", findley_limit, report),
         shear_materials=_of_both("shear_constants", shear_constants, report, ShearConstants),
     )
     own = {name: value for name, value in parameters.items() if name not in _ASKED}
     pairs = {
-        name: own.pop(name) for name in units.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)
+        name: own.pop(name) for name in unit_rows.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)
     }
-    samples, dim, of_points, own = listed(own, report, units.rows(about.units))
-    pairs |= {name: own.pop(name) for name in units.OF_BODIES if name in own}
+    samples, dim, of_points, own = listed(own, report, unit_rows.rows(about.units))
+    pairs |= {name: own.pop(name) for name in unit_rows.OF_BODIES if name in own}
     fixed, axes = spanned(own, report)
     fixed |= {name: list(raw) if dimensions_of(raw) == 1 else raw for name, raw in pairs.items()}
     if "body" not in parameters:
-        axes["body"] = units.LABELS
-    named = {units.NAMES_KEY: bodies, units.CARRIER_KEY: bulk_stress_body}
+        axes["body"] = unit_rows.LABELS
+    named = {unit_rows.NAMES_KEY: bodies, unit_rows.CARRIER_KEY: bulk_stress_body}
     named = {key: value for key, value in named.items() if value is not None}
-    given = {**fixed, **named, units.SIMILAR_KEY: similar}
+    given = {**fixed, **named, unit_rows.SIMILAR_KEY: similar}
     grid, found = read_contacts(given, axes, about, samples=samples)
     if grid is None or report:
         raise StudyError([*report, *found])

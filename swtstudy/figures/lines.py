@@ -203,7 +203,8 @@ def _mark_along(
     line = np.stack([x, y]).astype(float)
     padded = np.pad(line, ((0, 0), (1, 1)), constant_values=np.nan)
     before, after = padded[:, :-2], padded[:, 2:]
-    toward = np.where(np.isfinite(after).all(axis=0), after, before)
+    toward = np.where(np.isfinite(before).all(axis=0), before, 2.0 * line)  # of one between two breaks
+    toward = np.where(np.isfinite(after).all(axis=0), after, toward)
     both = np.stack([line, line + 1e-3 * (toward - line)], axis=-1)
     band = np.where(outside[:, None], both, np.nan).reshape(2, -1)
     width = 4.5 * rcParams["lines.linewidth"]

@@ -38,6 +38,7 @@ from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, check_distances, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.files import parse_toml
@@ -54,8 +55,11 @@ _LOADS = {
     ("file",): (*SignalTable.model_fields, "keep_cycles"),
 }
 _PROFILES = {PROFILE_COLUMNS: ("smoothing", "geometry"), ("file",): (*TraceTable.model_fields, "two_sided")}
-#: Stands for a wrong profile: its use is no mistake of its own.
-_ANY_PROFILE = TabulatedProfile("any", np.linspace(0.0, 1e3, 9), np.linspace(0.0, 1e3, 9) ** 2)
+#: Stands for a wrong profile of a kind: its use is no mistake of its own.
+_ANY_RADII = np.linspace(0.0, 1e3, 9)
+_ANY_PROFILE = {
+    each: TabulatedProfile("any", _ANY_RADII, _ANY_RADII**2, geometry=each) for each in GEOMETRIES
+}
 
 
 class StudyReader:
@@ -176,7 +180,10 @@ class StudyReader:
 
     def _profiles(self) -> dict[str, Definition]:
         """The profiles that are tables, by name; a wrong one stands for any."""
-        profiles: dict[str, Definition] = dict.fromkeys(self.parts.profiles, _ANY_PROFILE)
+        kinds = {name: getattr(table, "geometry", None) for name, table in self.parts.profiles.items()}
+        profiles: dict[str, Definition] = {
+            name: _ANY_PROFILE[kind if kind in GEOMETRIES else AXISYMMETRIC] for name, kind in kinds.items()
+        }
         for name, table in ((name, table) for name, table in self.parts.profiles.items() if table):
             with under(self.report, f"profiles.{name}"):
                 _form_of(table, _PROFILES)

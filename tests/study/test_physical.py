@@ -499,3 +499,20 @@ def test_a_plane_contact_under_a_constant_normal_load_is_controlled_by_forces() 
     sines = physical(**rig, tangential_force_amplitude=60.0).solve(1e-3)
     assert loop.control.item() == sines.control.item() == "forces"
     np.testing.assert_allclose(loop.SWT, sines.SWT, rtol=1e-3)
+
+
+def test_units_may_be_named_in_python() -> None:
+    """A figure and xarray's own labels say them; the numbers are as they are."""
+    given = {**ALUMINIUM, "normal_force": 200.0, "tangential_force_amplitude": [60.0, 80.0]}
+    newtons = {"length": "mm", "force": "N", "stress": "MPa"}
+    found, plain = physical(**given, units=newtons).solve(1e-2), physical(**given).solve(1e-2)
+    np.testing.assert_array_equal(found.SWT, plain.SWT)
+    assert (found.SWT.units, found.tangential_force_amplitude.units) == ("MPa", "N")
+    assert found.swt.contact().solve(1e-2).SWT.units == "MPa"
+    refused(
+        "units.force: found 'newton'; allowed: did you mean N",
+        physical,
+        **given,
+        units={**newtons, "force": "newton"},
+    )
+    refused("units.stress: found nothing", physical, **given, units={"length": "mm", "force": "N"})

@@ -145,3 +145,25 @@ def test_a_real_contact_of_a_table() -> None:
     harder = table.with_parameters(friction=0.7)
     assert harder.profile is pad
     assert harder.friction == 0.7
+
+
+def test_a_wrong_plane_profile_makes_no_mistake_of_its_length(tmp_path):
+    (tmp_path / "pad.csv").write_text("a,b\n0,0\n1,1\n")
+    text = f"""title = "A pad"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[profiles.pad]
+file = "pad.csv"
+geometry = "plane"
+[fixed]
+profile = "pad"
+contact_length = 8
+{"".join(f"{name} = {value}" + chr(10) for name, value in RIG.items() if name != "radius")}
+normal_force = 2400
+tangential_force_amplitude = 600
+"""
+    with pytest.raises(swtstudy.StudyError) as raised:
+        swtstudy.Study.from_text(text, "s", tmp_path)
+    assert {each.key for each in raised.value.mistakes} == {"profiles.pad"}

@@ -289,6 +289,10 @@ def test_times_of_day_are_seconds_from_the_first(tmp_path: Path, form: str) -> N
     found = read_signal(tmp_path / "rig.csv", **read)
     assert found.time.tolist() == [0.5 * k for k in range(40)]
     assert (found.count, found.period) == (2, 10.0)
+    # Between semicolons, with decimal commas.
+    text = (tmp_path / "rig.csv").read_text().replace(",", ";").replace(".", ",")
+    (tmp_path / "rig.csv").write_text(text.replace("01,05,2026", "01.05.2026"))
+    assert read_signal(tmp_path / "rig.csv", decimal=",", **read).time.tolist() == found.time.tolist()
 
 
 def test_exchanged_columns_are_told(tmp_path: Path) -> None:

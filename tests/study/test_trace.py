@@ -176,7 +176,7 @@ def test_a_clean_trace_has_its_swt(clean: swtstudy.TabulatedProfile) -> None:
 
 
 #: What lies on a trace, of so many samples.
-LITTER = [("dust", 6), ("dust", 1), ("pit", 6), ("zero", 8), ("sentinel", 8)]
+LITTER = [("dust", 6), ("dust", 1), ("dust", 2), ("pit", 6), ("zero", 8), ("sentinel", 8)]
 #: Quickly tested: all of it at one place.
 QUICK = 0.8
 
