@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import lru_cache, partial
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -134,6 +134,11 @@ class PhysicalContact:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *AT_REST, *self.grid.rows]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Labels of the units of length, force and stress; empty where nobody has said them."""
+        return asdict(self.grid.units)
 
     @property
     def moduli(self) -> Moduli:

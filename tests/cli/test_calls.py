@@ -212,12 +212,12 @@ def test_fit_prints_and_writes_what_it_found(called: Callable) -> None:
     stored, saved = called("swtstudy.archive.archive.save"), called("swtstudy.figures.style.save_figure")
     own = ("--y", "cycles_line", "--friction", "--confidence", "0.9", "--results", "out", "--width", "column")
     done = call("fit", "deeper/rig.toml", "tests.csv", *own)
-    assert done.output == "one\ntwo\nout/rig_fit_friction.nc\nout/rig_fit_friction.png\n"
+    assert done.output == "one\ntwo\nout/rig_fit_line_friction.nc\nout/rig_fit_line_friction.png\n"
     given = {"y": "cycles_line", "friction": True, "confidence": 0.9}
     assert found == [(("deeper/rig.toml", "tests.csv"), given)]
     assert drawn == [(("found",), {"width": "column"})]
-    assert stored == [(("found", Path("out/rig_fit_friction.nc")), {})]
-    assert saved == [(("figure", Path("out/rig_fit_friction.png")), {})]
+    assert stored == [(("found", Path("out/rig_fit_line_friction.nc")), {})]
+    assert saved == [(("figure", Path("out/rig_fit_line_friction.png")), {})]
     call("fit", "rig.toml", "tests.csv")
     assert found[1][1] == {"y": "cycles_volume", "friction": False, "confidence": 0.95}
     assert drawn[1][1] == {"width": None}
