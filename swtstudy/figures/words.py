@@ -20,7 +20,7 @@ from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.quantities import ATTRIBUTES, EVERY_VARIABLE, QUANTITIES, attributes_of
+from swtstudy.vocabulary.quantities import ATTRIBUTES, EVERY_VARIABLE, attributes_of
 from swtstudy.vocabulary.wording import as_text, pi_words, place_words
 
 #: Width of a letter of a tick over the size of its font.
@@ -53,10 +53,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     # A symbol alone says too little of a life, a mean of SWT, a usage, a place.
     unfamiliar = "cycles", "FS_cycles", "failure_probability", "SWT_", "findley_usage", "critical_"
     if not kept and symbol and str(values.name).startswith(unfamiliar) and values.name != "critical_angle":
-        nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
         meaning = str(values.attrs.get("long_name", values.name)).removesuffix(" x/a_H")
-        if nonlocal_one:
-            meaning = nonlocal_one.meaning.replace("swt", "SWT")
         words = f"{'load cycles to a crack' if is_life(values.attrs) else meaning}, {words}"
     return words if units in (None, "1") else f"{words} ({'°' if units == 'degree' else as_text(units)})"
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
-from swtstudy.vocabulary.choices import CRITERIA, Criterion
+from swtstudy.vocabulary.choices import CRITERIA, Criterion, with_values_of
 from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.quantities import ATTRIBUTES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request, error_of
 
@@ -58,31 +58,41 @@ def _indexed(letter: str, *parts: str) -> str:
     return rf"{letter}_\mathrm{{{index}}}" if index else letter
 
 
+def _meaning(row: Criterion, of: str) -> str:
+    """Words for the values of a criterion: at the worst point, or a mean of them."""
+    return row.values if of == "s" else with_values_of(NONLOCAL[of].meaning, row.values)
+
+
+def _by(row: Criterion, of: str) -> str:
+    """Words for what a life is by, behind it; empty at the worst point by SWT."""
+    return f" by the {_meaning(row, of)}" * (of != "s") + "{shear}" * bool(row.by)
+
+
 def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
     """The values of s and of its means, their errors, lives, and usages of a limit."""
     for of, end in _ENDS.items():
-        place, words = end.removeprefix("_"), end.replace("_", " ")
-        symbol, meaning = _indexed(row.sign, place), row.values + words
+        place = end.removeprefix("_")
+        symbol, meaning = _indexed(row.sign, place), _meaning(row, of)
         name, scale = f"{row.name}{end}", (row.unit, row.scale)
         yield Derived(name, symbol, meaning, *scale, of, criterion=criterion)
         if row.limit:
             over = rf"{symbol}/f_\mathrm{{lim}}", f"{meaning} over its limit"
             yield Derived(f"{row.usage}{end}", *over, "1", "stress_scale", of, (row.limit,), criterion)
         if row.life:
-            life = _indexed("N", row.subscript, place), f"rounds to a crack{words}{'{shear}' * bool(row.by)}"
+            life = _indexed("N", row.subscript, place), f"load cycles to a crack{_by(row, of)}"
             yield Derived(f"{row.life}{end}", *life, "1", row.scale, of, row.constants, criterion, LIFE)
         error = error_of(name), rf"\Delta {symbol}", f"error of {meaning}"
         yield Derived(*error, *scale, error_of(of), criterion=criterion)
 
 
-def _of_life(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
+def _of_life(criterion: str, row: Criterion, of_value: str, end: str) -> Iterator[Derived]:
     """All that is made of a life: by blocks, and of constants that scatter.
 
     Blocks: repetitions of their sequence to a crack, and the share of each load in its damage. Constants that
     scatter: percentiles of the life, also in repetitions, and the probability of a crack before a target.
     """
     life, start, place = f"{row.life}{end}", row.life.removesuffix(LIFE), end.removeprefix("_")
-    words = end.replace("_", " ") + "{shear}" * bool(row.by)
+    words = _by(row, of_value)
     for kind, symbol, meaning in (
         (REPETITIONS, _indexed("N", "seq", row.subscript, place), f"repetitions to a crack{words}"),
         (SHARE, "D_k/D", f"share of the damage{words}"),
@@ -90,16 +100,16 @@ def _of_life(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
         yield Derived(f"{start}{kind}{end}", symbol, meaning, of=life, needs=("blocks",), kind=kind)
     of = {"of": life, "criterion": criterion}
     for percent in map(str, PERCENTS):
-        meaning = f"rounds to a crack{words}, before which {percent} % fail"
+        meaning = f"load cycles to a crack{words}, before which {percent} % fail"
         symbol = _indexed("N", row.subscript, place, percent)
         yield Derived(f"{life}_{percent}", symbol, meaning, needs=("scatter",), kind=percent, **of)
         meaning = f"repetitions to a crack{words}, before which {percent} % fail"
         symbol = _indexed("N", "seq", row.subscript, place, percent)
         name = f"{start}{REPETITIONS}{end}_{percent}"
         yield Derived(name, symbol, meaning, needs=("blocks",), kind=percent, **of)
-    symbol, where = _indexed("P", row.subscript, place), f"by the life of a {place}"
+    symbol, where = _indexed("P", row.subscript, place), f" by the {_meaning(row, of_value)}"
     meaning = f"probability of a crack before {{target}} load cycles{row.by},"
-    meaning += f" {where if place else 'at the worst point'}"
+    meaning += where if place else " at the worst point"
     yield Derived(f"{start}{FAILED}{end}", symbol, meaning, needs=("target_life",), kind=FAILED, **of)
 
 
@@ -109,7 +119,7 @@ def _rows() -> Iterator[Derived]:
         yield from _of_criterion(criterion, row)
     for name, alike in read_table(__file__, "derived").items():
         yield Derived(name, **alike)
-    lives = [(name, row, end) for name, row in CRITERIA.items() if row.life for end in _ENDS.values()]
+    lives = [(name, row, *each) for name, row in CRITERIA.items() if row.life for each in _ENDS.items()]
     made = [each for life in lives for each in _of_life(*life)]
     yield from sorted(made, key=lambda each: each.kind in RANKS)  # by blocks first
 
