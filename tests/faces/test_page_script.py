@@ -41,5 +41,5 @@ def test_the_script_shows_values_also_beside_an_endless_life(tmp_path: Path) -> 
     lives = [each for each in page["hovered"] if each.startswith("N = ")]
     assert len(lives) == 3  # an endless one has no place
     assert f"{results.SWT.values[1]:.4g}" in "; ".join(page["hovered"])
-    assert any("N – rounds to a crack" in each for each in page["choices"][0])
+    assert any("N – load cycles to a crack" in each for each in page["choices"][0])
     assert page["drawn"] > 1000

@@ -109,7 +109,7 @@ def test_each_body_has_its_own_life():
     assert soft.attrs["long_name"] == "SWT"
     lives = contact.cycles(STEEL, found.s)
     assert lives.attrs == {
-        "long_name": "rounds to a crack",
+        "long_name": "load cycles to a crack",
         "units": "1",
         "symbol": "N",
         "comment": contact.cycles(STEEL, found.s[1]).comment,

@@ -55,7 +55,7 @@ def test_life_by_given_shear_constants(tmp_path):
     fs = float(own.FS.values.item())
     expected = root(fs, 210e3 / 2.6, 530.0, -0.09, 0.8, -0.55)
     assert own.FS_cycles.item() == pytest.approx(expected, rel=1e-9)
-    assert own.FS_cycles.attrs["long_name"] == "rounds to a crack by shear constants"
+    assert own.FS_cycles.attrs["long_name"] == "load cycles to a crack by shear constants"
     assert "cycles" not in own
     softer = solved(study(SHEAR, "shear_modulus = [70e3, 90e3]"), tmp_path / "own.nc")
     for body, modulus in ((1, 70e3), (2, 90e3)):
@@ -131,7 +131,10 @@ def test_properties_of_shear_of_a_contact_in_python():
         np.testing.assert_allclose(ratio.transpose("body", ...).values.T - limits, 0.0, atol=1e-9)
     own = OWN | {"criterion": "fatemi_socie", "yield_strength": 400.0}
     found = swtstudy.physical(**own, shear_constants=shear).solve(**near)
-    assert found.FS_cycles_volume.attrs["long_name"] == "rounds to a crack volume by shear constants"
+    assert (
+        found.FS_cycles_volume.attrs["long_name"]
+        == "load cycles to a crack by the mean of Fatemi-Socie parameter over a volume by shear constants"
+    )
     for end in ("", "_volume"):
         for body in (0, 1):
             value = found[f"FS{end}"].values[body]
