@@ -346,15 +346,12 @@ def signal_from(
         raise refused(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")
     if samples < 2.0 - 1e-9:
         found = f"{samples:.2g} samples a cycle: a cycle takes {period:.3g}, the time steps by {step:.3g}"
-        allowed = (
-            "2 samples a cycle at least; both in one unit, such as scale = { time = 1e-6 } for µs beside Hz"
-        )
-        raise refused(key, found, allowed)
+        one_unit = "; both in one unit, such as scale = { time = 1e-6 } for µs beside Hz"
+        raise refused(key, found, f"2 samples a cycle at least{one_unit * bool(given.time)}")
     raw = Signal(name, time, values, period, count, given.absolute, highest)
     if key == "recorded_cycles" and count > 1 and raw.gaps.size:
-        found = (
-            f"{count}, and a gap of {np.diff(time)[raw.gaps[0]]:.4g} in the time, at {time[raw.gaps[0]]:.4g}"
-        )
+        at = raw.gaps[0]
+        found = f"{count}, and a gap of {time[at + 1] - time[at]:.4g} in the time, at {time[at]:.4g}"
         likely = f"{step * len(time) / count:.5g} if nothing else is lost"
         raise refused(key, found, f"period = the length of a cycle, {likely}")
     signal = replace(raw, values=_without_spikes(raw, rows, given.despike))
