@@ -100,6 +100,10 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
         if is_life(values.attrs):  # of lives that constants are known for, if there are some
             known = ratio.where((table.minimum >= KNOWN_LIVES[0]) & (table.maximum <= KNOWN_LIVES[1]))
             ratio = known if known.notnull().any() else ratio
+            if "body" in ratio.dims:  # the one that has a crack first
+                first_crack = values.min([dim for dim in values.dims if dim != "body"]).idxmin("body")
+                weakest = ratio.where(ratio["body"] == first_crack)
+                ratio = weakest if weakest.notnull().any() else ratio
         if ratio.notnull().any():
             there = table.isel(index_at(ratio, int(np.nanargmax(ratio.values))))
             found.append(Lever(name, table, there, float(there.ratio)))
