@@ -586,14 +586,14 @@ def test_scripts_draw_every_point_of_a_sample(tmp_path: Path, without_points: No
 
 def test_a_life_is_told_of_the_body_that_has_a_crack_first(tmp_path):
     """The stronger one has the larger factor."""
-    alloys = ALLOY.replace("strength = 927", "strength = [927, 2000]").replace("-0.113", "[-0.113, -0.07]")
+    alloys = ALLOY.replace("strength = 927", "strength = [927, 1000]").replace("-0.113", "[-0.113, -0.1]")
     text = f"""title = "Two bodies"
 rtol = 1e-2
 {alloys}
 [fixed]
 {SPHERE}normal_force = 200
 [axes]
-tangential_force_amplitude = [70, 80]
+tangential_force_amplitude = [85, 97]
 [figure]
 x = "tangential_force_amplitude"
 y = "cycles"
@@ -603,6 +603,7 @@ hue = "body"
     least, most = (getattr(dataset.cycles, end)("tangential_force_amplitude") for end in ("min", "max"))
     assert least.idxmin("body") == 1
     ratio = most / least
+    assert 1e2 < least.min() < most.max() < 1e7
     assert ratio[1] > ratio[0]
     line = next(line for line in sentences(dataset) if "tangential" in line)
     assert f"{float(ratio[0]):.3g}" in line
