@@ -148,7 +148,7 @@ def test_a_probability_is_told_of_the_life_that_is_named(tmp_path: Path) -> None
     found = swtstudy.run(Study.from_text(text), tmp_path / "mean.nc")
     mean = found.failure_probability_volume
     assert float(mean.max()) < float(found.failure_probability.max())
-    words = "probability of a crack before 200000 load cycles, by the life of a volume"
+    words = "probability of a crack before 200000 load cycles, by the mean of SWT over a volume"
     assert float(mean.max()) == 0.0
     assert f"{words}: 0 in all draws." in repr(found.swt)
     # Percentiles, which are as far out, go with their life.
