@@ -94,9 +94,9 @@ def _place_of(row: Table, grid: Grid, points: Distinct) -> str:
     at = dict(zip(grid.dims, np.unravel_index(flat, grid.shape), strict=True))
     words = []
     for name in (each for each in grid.names if grid.dimension(each)):
-        value, unit = grid.values(name)[at[str(grid.dimension(name))]], grid.row(name).units
-        own = str(value) if isinstance(value, Definition) else value_words(name, value, {"units": unit})
-        words.append(f"{name} = {own}{unit_words(unit)}")
+        value: Any = grid.values(name)[at[str(grid.dimension(name))]]
+        unit = grid.row(name).units
+        words.append(f"{name} = {value_words(name, value, {'units': unit})}{unit_words(unit)}")
     return ", ".join(words) or "the point"
 
 

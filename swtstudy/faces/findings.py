@@ -91,6 +91,8 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
     values = measured(dataset)
     others = {"criterion"} | ({"frequency_ratio"} if is_life(values.attrs) else set())
     first = layout_of(dataset).x if "figure" in dataset.attrs else "phase"
+    if is_life(values.attrs) and "body" in values.dims:  # the body that has a crack first
+        weakest = values.min([dim for dim in values.dims if dim != "body"]).idxmin("body")
     found = []
     for name in map(str, values.dims):
         if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name in others:
@@ -100,10 +102,9 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
         if is_life(values.attrs):  # of lives that constants are known for, if there are some
             known = ratio.where((table.minimum >= KNOWN_LIVES[0]) & (table.maximum <= KNOWN_LIVES[1]))
             ratio = known if known.notnull().any() else ratio
-            if "body" in ratio.dims:  # the one that has a crack first
-                first_crack = values.min([dim for dim in values.dims if dim != "body"]).idxmin("body")
-                weakest = ratio.where(ratio["body"] == first_crack)
-                ratio = weakest if weakest.notnull().any() else ratio
+            if "body" in ratio.dims:
+                of_weakest = ratio.where(ratio["body"] == weakest)
+                ratio = of_weakest if of_weakest.notnull().any() else ratio
         if ratio.notnull().any():
             there = table.isel(index_at(ratio, int(np.nanargmax(ratio.values))))
             found.append(Lever(name, table, there, float(there.ratio)))

@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
-from swtstudy.vocabulary.parameters import PARAMETERS, Parameter
+from swtstudy.vocabulary.parameters import DEGREES, PARAMETERS, Parameter
 from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
@@ -122,9 +122,6 @@ def _square_root(value: Fraction | float) -> Fraction | float:
 Value = float | Fraction | str | Definition
 #: Values of axes or samples, by parameter.
 NamedValues = dict[str, tuple[Value, ...]]
-
-#: Units of an angle that is not in rad.
-DEGREES = ("degrees", "deg", "°")
 
 #: No definitions.
 UNDEFINED: Mapping[str, Definition] = {}

@@ -8,7 +8,7 @@ import io
 import math
 import re
 import warnings
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
@@ -199,6 +199,16 @@ class UserTable:
         found = ((text, number(text, self.decimal)) for text in self.texts(name))
         factor = self.form.scale.get(name, 1.0)
         return [factor * value if math.isfinite(value) else text for text, value in found]
+
+    def incomplete(self, names: Iterable[str]) -> list[int]:
+        """The lines of rows without a value in one of some columns."""
+        columns = [*map(self.column, names)]
+        return [line for line, row in self.cells if any(row[k].lower() in MISSING for k in columns)]
+
+    def leave_out(self, lines: Iterable[int]) -> None:
+        """Leave the rows of some lines out."""
+        out = {*lines}
+        self.cells = [(line, row) for line, row in self.cells if line not in out]
 
     def unit(self, name: str, kind: str) -> tuple[str, str]:
         """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
@@ -414,15 +424,13 @@ def read_columns(
         names = [*names, *filter(table.has, optional)]
         if units:
             report += wrong_units(table, {name: kind for name, kind in kinds.items() if name in names}, units)
-        columns = [*map(table.column, names)] if gaps else []
-        cells = table.cells
-        empty = {line: row for line, row in cells if any(row[k].lower() in MISSING for k in columns)}
-        if 0 < len(empty) < len(cells):
+        empty = table.incomplete(names) if gaps else []
+        if 0 < len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
-                words = f"line {min(empty)}{more} left out: a value is missing"
+                words = f"line {empty[0]}{more} left out: a value is missing"
                 warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=4)
-            table.cells = [(line, row) for line, row in cells if line not in empty]
+            table.leave_out(empty)
         values = table.numbers(names)
     report.refuse()
     return values, np.array([line for line, _ in table.cells])

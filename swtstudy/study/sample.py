@@ -19,7 +19,7 @@ import numpy as np
 from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
 from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
 from swtstudy.points.values import Value, as_number, read_value
-from swtstudy.study.columns import COMMA_HINT, MISSING, read_table, unknown_names, wrong_units
+from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
 from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
@@ -197,12 +197,10 @@ class SampleReader:
             units = self.contacts.units if self.contacts else Units()
             there = [name for name in own if name in self.rows and name not in lost]
             found += wrong_units(table, kinds_of(there), units)
-            columns = [*map(table.column, there)]
-            empty = [line for line, row in table.cells if any(row[k].lower() in MISSING for k in columns)]
-            if empty:
+            if empty := table.incomplete(there):
                 words = f"a cell without a value{more_like_it(len(empty))}"
                 found(f"line {empty[0]}", words, "a value of each parameter at each point")
-            table.cells = [(line, row) for line, row in table.cells if line not in empty]
+            table.leave_out(empty)
             with under(self.report, "sample", "file"):  # and the values are told, too
                 found.refuse()
             if table.cells or empty:

@@ -271,6 +271,8 @@ CONTROLS: dict[Control, str] = {
 
 #: An angle beyond so many rad is probably meant in degrees.
 MANY_TURNS = 8.0 * math.pi
+#: Units of an angle that is not in rad.
+DEGREES = ("degrees", "deg", "°")
 
 #: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
 SYMBOLS: dict[str, tuple[str, str]] = {

@@ -19,6 +19,7 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plai
 from swtstudy.vocabulary.parameters import (
     AXES,
     CONTACT_AXES,
+    DEGREES,
     PAIRS,
     PARAMETERS,
     QUANTITY_AXES,
@@ -36,7 +37,9 @@ UNIT_KINDS = ("length", "force", "stress")
 #: Units by kind and label, in m, N and Pa, and properties of materials.
 TABLES = parse_toml(read_text(Path(__file__).with_name("tables.toml")))
 #: Labels that are known: a set of them that is not consistent is a mistake.
-KNOWN: dict[str, dict[str, float]] = TABLES["known"]
+KNOWN: dict[str, dict[str, float]] = TABLES["known"] | {
+    "angle": {"rad": 1.0} | dict.fromkeys(DEGREES, math.radians(1.0))
+}
 #: Names of units as people write them out, and their labels.
 _WRITTEN_OUT = {
     prefix + name: letter + label
