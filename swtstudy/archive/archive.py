@@ -26,15 +26,15 @@ import xarray as xr
 from swtstudy.archive.parts import known_beside, parts_folder, read_parts
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import check_archive, found_in, lacking
-from swtstudy.points.chunk import Found, join, matching
+from swtstudy.points.chunk import Found, join, matching, versions
 from swtstudy.points.grid import Distinct
-from swtstudy.points.labelled import label, margins, values_at
-from swtstudy.solver.definitions import definitions_text
+from swtstudy.points.solve import label, margins, values_at
 from swtstudy.study.definition import Study
+from swtstudy.study.writing import definitions_text
 from swtstudy.vocabulary.files import replacing
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.quantities import FAILED
-from swtstudy.vocabulary.version import __version__, versions
+from swtstudy.vocabulary.version import __version__
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 

@@ -15,13 +15,13 @@ from swtstudy.points.chunk import read_runs
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside_words, point_words, validity_lines
 from swtstudy.points.values import index_at, unit_of
-from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.units.results import measures, sequence_words
 from swtstudy.study.units.rows import Units
+from swtstudy.study.writing import defined_in
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE

@@ -11,16 +11,16 @@ import xarray as xr
 
 from swtstudy.points.chunk import Found, read_runs
 from swtstudy.points.grid import SAMPLE, Distinct, Grid, complete
-from swtstudy.points.labelled import turned
 from swtstudy.points.reading import check_pairs
 from swtstudy.points.rules import shapes_needed
+from swtstudy.points.solve import turned
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
-from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import read_figure
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.reading import check_contacts, completed, read_contact
 from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.study.writing import defined_in
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, is_rtol, literal, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, Parameter, replaced_by

@@ -18,7 +18,18 @@ import numpy as np
 from swtstudy.archive import parts
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
-from swtstudy.points.chunk import Found, Run, Solver, cut, look_up, matching, put, solve_chunk, task_of
+from swtstudy.points.chunk import (
+    Found,
+    Run,
+    Solver,
+    cut,
+    look_up,
+    matching,
+    put,
+    solve_chunk,
+    task_of,
+    versions,
+)
 from swtstudy.points.grid import Distinct, group_rows
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.study.definition import Study, read_studies, require_study
@@ -28,7 +39,7 @@ from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import MISSING, Request
-from swtstudy.vocabulary.version import SOLVER_VERSION, versions
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     import xarray as xr

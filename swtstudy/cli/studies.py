@@ -74,7 +74,7 @@ def validate(studies: tuple[str, ...]) -> None:
       swtstudy validate mine.toml
       swtstudy validate studies
     """
-    from swtstudy.points.labelled import foreseen_lines
+    from swtstudy.points.solve import foreseen_lines
     from swtstudy.study.definition import read_studies
 
     report = Report()

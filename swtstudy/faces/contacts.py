@@ -15,10 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.faces.one_body import OneBody, given_values, one_contact
 from swtstudy.points.grid import SHAPE_COLUMNS
-from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import OF_POINTS, dimensions_of, listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts
-from swtstudy.points.solve import solve_grid
+from swtstudy.points.solve import margins, solve_grid, values_along
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as unit_rows
 from swtstudy.study.units.at_rest import Moduli

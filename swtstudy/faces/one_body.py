@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from swtstudy.figures.labels import Label
+from swtstudy.figures.words import Label
 from swtstudy.points.solve import solve_grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.study.units import rows as units

@@ -27,11 +27,11 @@ from swtstudy.paper.statements import about_archive
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
 from swtstudy.results.evaluate import quantity, quantity_error
-from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.units.results import measures
+from swtstudy.study.writing import defined_in
 from swtstudy.vocabulary.choices import CRITERIA, FIGURES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES

@@ -14,14 +14,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width, add_legend
 from swtstudy.figures.style import DASHES, Style, arrow, entitle, stroke
-from swtstudy.figures.words import show_units
+from swtstudy.figures.words import NO_LABELS, Labels, show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.solver.at_rest import AtRest
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import family_of

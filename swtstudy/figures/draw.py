@@ -17,9 +17,9 @@ from swtstudy.figures.words import flag_words, parts_of, quantity_words, title_w
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
-from swtstudy.solver.definitions import defined_in
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layout
+from swtstudy.study.writing import defined_in
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES

@@ -20,10 +20,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import DASHES, Style, arrow, dots, entitle, stroke
-from swtstudy.figures.words import flag_words, show_units, tick_in_pi
+from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.results.inspection import inspect_point
 from swtstudy.vocabulary.arrays import FloatArray

@@ -24,7 +24,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
 from swtstudy.figures.style import Style, picture, stroke, styled
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.vocabulary.mistakes import literal, refused
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -15,13 +16,44 @@ from matplotlib.axis import Axis
 from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
-from swtstudy.figures.labels import Labels
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import ATTRIBUTES, EVERY_VARIABLE, attributes_of
 from swtstudy.vocabulary.wording import as_text, pi_words, place_words
+
+
+class Label(NamedTuple):
+    """The scale, symbol and unit that a variable has of a real contact.
+
+    Attributes
+    ----------
+    scale
+        What 1 is worth.
+    symbol
+        Its symbol with a unit, as LaTeX.
+    units
+        Label of the unit; "1" for a plain number.
+    """
+
+    scale: float
+    symbol: str
+    units: str
+
+    @property
+    def unit(self) -> str:
+        """The unit in words of a figure, after a blank."""
+        return "" if self.units == "1" else f" {as_text(self.units)}"
+
+    def number(self, value: float, digits: int = 4) -> str:
+        """A value with its unit."""
+        return f"{self.scale * value:.{digits}g}{self.unit}".replace("-", "−")
+
+
+#: By the name of a variable.
+Labels = Mapping[str, Label]
+NO_LABELS: Labels = MappingProxyType({})
 
 #: Width of a letter of a tick over the size of its font.
 LETTER = 0.65

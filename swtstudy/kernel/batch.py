@@ -11,13 +11,12 @@ from swtstudy.kernel.body import OF_BODY
 from swtstudy.kernel.circle import CIRCLE, search_circles
 from swtstudy.kernel.compiled import new_record, new_records
 from swtstudy.kernel.contact import CYCLE
-from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.criterion import ASK, ask
 from swtstudy.kernel.cycles import COUNTED, COUNTING, count_points
 from swtstudy.kernel.growth import GROWTH
 from swtstudy.kernel.line import SEARCH
 from swtstudy.kernel.load import LOAD
-from swtstudy.kernel.loads import leave_bulk_out, load_of
+from swtstudy.kernel.loads import leave_bulk_out, load_of, prescribe
 from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record

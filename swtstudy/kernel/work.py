@@ -23,10 +23,10 @@ import numpy as np
 from swtstudy.kernel.chebyshev import clenshaw, gauss_legendre, panel_of, vertex
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, solve_cycle
-from swtstudy.kernel.control import NODE, WEIGHT, rise
 from swtstudy.kernel.events import force_ratio, slide, stick_limit, turning_points
 from swtstudy.kernel.growth import MAX_GROWN, lay_out, solved_places
 from swtstudy.kernel.load import load_at, rates_at
+from swtstudy.kernel.loads import NODE, WEIGHT, rise
 from swtstudy.kernel.profile import (
     MAX_PANELS,
     MEAN_LOAD,

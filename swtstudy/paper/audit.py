@@ -18,9 +18,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.points.grid import COST, ROW, SHAPE_COLUMNS, Definitions, Table, code_of, points_from, value_of
-from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
+from swtstudy.study.writing import defined_in, definitions_text
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.progress import Progress

@@ -12,7 +12,7 @@ import xarray as xr
 
 from swtstudy.paper.audit import TOLERANCE, VERDICTS, canonical_rows
 from swtstudy.points.grid import describe_point
-from swtstudy.solver.definitions import defined_in
+from swtstudy.study.writing import defined_in
 from swtstudy.vocabulary.choices import REGIMES, SHARP
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import unit_words, value_words

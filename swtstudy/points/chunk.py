@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import platform
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -20,7 +22,7 @@ from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import literal
 from swtstudy.vocabulary.quantities import COMPUTED, FAILED, ITEMS, MISSING, NONLOCAL, SOLVED, Request
-from swtstudy.vocabulary.version import SOLVER_VERSION
+from swtstudy.vocabulary.version import SOLVER_VERSION, __version__
 
 #: Arrays of shape (n, …) by name.
 Arrays = dict[str, NDArray[Any]]
@@ -30,6 +32,8 @@ Solver = Callable[[Points, float], Solution] | None
 #: Pieces of the load cycles of a chunk, all together, and what a point counts at least for the largest stress
 #: or each mean over the body that is asked: some 0.1 s of work, short enough to lose.
 PIECES, PIECES_OF_BODY = 128, 16
+#: Packages whose versions can affect the numbers or the file.
+_PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 
 
 def cut(points: Distinct, wanted: BoolArray, asked: Request) -> list[IndexArray]:
@@ -177,6 +181,15 @@ class Run:
     def to_json(self) -> dict[str, Any]:
         """The run as JSON has it; without quantities, if there are none."""
         return {name: value for name, value in asdict(self).items() if value != ()}
+
+
+@cache
+def versions() -> str:
+    """Versions of Python, of this package and of packages that affect its numbers and files."""
+    from importlib.metadata import version
+
+    packages = (f"{name} {version(name)}" for name in _PACKAGES)
+    return ", ".join([f"python {platform.python_version()}", f"swtstudy {__version__}", *packages])
 
 
 def read_runs(text: object) -> tuple[Run, ...]:

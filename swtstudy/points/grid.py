@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, press_steadily, read_value
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, families_with, family_of, is_plane

@@ -12,7 +12,7 @@ import numpy as np
 from swtstudy.points.grid import SHAPE_COLUMNS, Grid, complete, numbers_at, value_of
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.solver.table import ROUGH, TabulatedProfile
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition

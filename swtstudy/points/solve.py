@@ -1,12 +1,13 @@
-"""s for named parameters, computed in threads of this process."""
+"""s for named parameters, computed in threads of this process, as the Dataset that users see."""
 
 from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -15,17 +16,43 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.points.chunk import Arrays, blank, cut, fill, put, task_of
-from swtstudy.points.grid import Distinct, Grid, check_count
-from swtstudy.points.labelled import label, margins, values_at
+from swtstudy.points.grid import Distinct, Grid, alike, check_count, code_of, points_from
 from swtstudy.points.reading import listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts
-from swtstudy.vocabulary.arrays import IndexArray
+from swtstudy.points.validity import ROUNDING, validity_lines
+from swtstudy.points.values import Value, as_number
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray
+from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import (
+    CONTROLS,
+    DIRECTIONS,
+    HARMONIC,
+    PARAMETERS,
+    QUANTITY_AXES,
+    SHIFT,
+    Parameter,
+)
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import DISTANCE, SOLVED, Request, read_quantities
+from swtstudy.vocabulary.quantities import (
+    DISTANCE,
+    QUANTITIES,
+    SOLVED,
+    STICK_ENDS,
+    Request,
+    attributes_of,
+    read_quantities,
+)
 from swtstudy.vocabulary.version import __version__
+
+#: xarray breaks the labels of its own plots after 30 characters, including the unit.
+_LONGEST_NAME = 24
+#: Points whose margins are found together: the working memory for one is some kB.
+_TOGETHER = 2000
+#: Larger grids are not looked at before they are solved: a point takes some 30 µs.
+MOST_FORESEEN = 100_000
 
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
@@ -162,3 +189,221 @@ def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tupl
             put(found, chunk, arrays)
             progress.add(len(chunk))
     return points, values_at(grid, points, found, asked, places)
+
+
+def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.Dataset:
+    """The Dataset of a grid.
+
+    Parameters
+    ----------
+    grid
+        Names and values of the dimensions.
+    arrays
+        Data variables by name, each of shape (grid.size, …) in C order, or the grid's shape; quantities over
+        critical distances have these next.
+    asked
+        The quantities beside s.
+
+    Returns
+    -------
+    xarray.Dataset
+        With units, if the grid is one of real contacts.
+        Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
+        optional ones at their default; parameters of a sample are coordinates along its dimension, which
+        numbers its points. The coordinate ``control`` says what is prescribed.
+    """
+    variables: dict[str, xr.Variable] = {}
+    for name, values in arrays.items():
+        dims = asked.variables.get(name, ())
+        tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
+        whole = values.reshape((*grid.shape, *tail))
+        variables[name] = _variable((*grid.dims, *dims), whole, attributes_of(name))
+    dataset = xr.Dataset(variables, {name: _variable(*own) for name, *own in _coordinates(grid, asked)})
+    _name_criteria(dataset, grid, asked)
+    dataset = grid.presented(dataset, asked)
+    for variable in dataset.variables.values():
+        # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
+        if variable.attrs.get("units") == "1":
+            del variable.attrs["units"]
+    # Arrays of dask are not known before they are computed.
+    lines = validity_lines(dataset) if "regime" in arrays and not dataset.chunks else ()
+    return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
+
+
+def _coordinates(grid: Grid, asked: Request) -> Iterator[tuple[str, tuple[str, ...], Any, dict[str, str]]]:
+    """Name, dimensions, values and attributes of each coordinate."""
+    for name, values in (grid.samples | grid.axes).items():
+        yield name, (str(grid.dimension(name)),), plain_values(values), _attributes(grid.row(name), values)
+    if grid.samples and grid.sample_dim not in grid.samples:
+        words = {"long_name": "number of the point", "parameters": " ".join(grid.samples)}
+        yield grid.sample_dim, (grid.sample_dim,), values_along(grid, grid.sample_dim), words
+    for name, value in grid.fixed.items():
+        says = name == SHIFT and "stick_zone" in grid.margins
+        if says or not grid.row(name).goes_without_saying(value):
+            yield name, (), plain_values((value,))[0], _attributes(grid.row(name), (value,))
+    words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
+    yield "control", (), grid.control.name, words
+    if asked.distances:
+        dims, distances = (DISTANCE,) * asked.is_axis, np.array(asked.distances)
+        words = _attributes(grid.row(DISTANCE), asked.distances)
+        yield DISTANCE, dims, distances if asked.is_axis else distances[0], words
+        words = {"long_name": (along := QUANTITY_AXES["direction"]).name, "comment": along.meaning}
+        yield "direction", ("direction",), np.array(DIRECTIONS, dtype=object), words
+
+
+def _variable(dims: tuple[str, ...], values: Any, attributes: Mapping[str, str]) -> xr.Variable:
+    """A variable that xarray need not convert: for that it would first import the arrays of dask."""
+    values = values if hasattr(values, "dask") else np.asarray(values)
+    return xr.Variable(dims, values, attributes, fastpath=True)
+
+
+def values_at(
+    grid: Grid, points: Distinct, found: Arrays, asked: Request, places: IndexArray | None = None
+) -> dict[str, NDArray[Any]]:
+    """Values at n places of a grid, by default at all, and what is asked beside s, NaN where it is not known.
+
+    ``points`` are the distinct ones of these places, and ``found`` their values.
+    """
+    arrays = {name: found[name][points.index] for name in SOLVED}
+    for row in asked.rows:
+        nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in row.dims)), np.nan)
+        arrays |= {name: found.get(name, nothing)[points.index] for name in row.variables}
+    return turned(arrays, points.mirrored, grid, np.arange(grid.size) if places is None else places)
+
+
+def turned(
+    arrays: Mapping[str, NDArray[Any]],
+    mirrored: BoolArray,
+    grid: Grid,
+    places: IndexArray,
+    per_cycle: np.ufunc = np.multiply,
+) -> dict[str, NDArray[Any]]:
+    """Values at n places of a grid from values of distinct points; and back, with ``np.divide``.
+
+    Where a point is mirrored, places and angles have the other sign. A load cycle lasts for the common period
+    2πq/ω1 of the point's own frequencies. The distinct point of a resting normal load has ω2 = ω1: its
+    tangential load passes once, and p times in that period. + 0.0 removes the sign of zero.
+    """
+    found = dict(arrays)
+    for name in ("critical_x", "critical_angle", *(n for n, row in QUANTITIES.items() if row.is_place)):
+        if name in found:
+            flips = mirrored.reshape(-1, *(1,) * (found[name].ndim - 1))
+            found[name] = np.where(flips, -found[name], found[name]) + 0.0
+    if {*STICK_ENDS} <= found.keys():
+        left, right = (found[name] for name in STICK_ENDS)
+        ends = np.where(mirrored, -right, left) + 0.0, np.where(mirrored, -left, right) + 0.0
+        found |= zip(STICK_ENDS, ends, strict=True)
+    angle = found["critical_angle"]
+    found["critical_angle"] = np.where(angle <= -90, angle + 180, angle)
+    for name in (n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in found):
+        amplitude, load, p = grid.at(places, "normal_amplitude", "load", "p")
+        cycles = np.where((amplitude == 0.0) & (load == code_of(HARMONIC, "load")), p, 1.0)
+        found[name] = per_cycle(found[name], cycles.reshape(-1, *(1,) * (found[name].ndim - 1)))
+    return found
+
+
+def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
+    """Say of s and of what is made of it which criterion it is, unless it is the paper's."""
+    criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
+    if criteria == [SWT]:
+        return
+    single = len(criteria) == 1
+    words = "; ".join(f"{name}: " * (not single) + CRITERIA[name].meaning for name in criteria)
+    dataset.s.attrs |= {
+        "long_name": f"{criteria[0].replace('_', ' ')} parameter s" if single else "s by its criterion",
+        "comment": f"{words}; on the surface line y = 0: {BENEATH}",
+        "criterion": " ".join(criteria),
+    }
+    value = CRITERIA[criteria[0]].values if single else "criterion"
+    for name in asked.variables:
+        own = dataset[name].attrs
+        own |= {key: with_values_of(own[key], value) for key in ("long_name", "comment")}
+        own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
+
+
+def values_along(grid: Grid, dim: str) -> NDArray:
+    """Values along a dimension of a grid."""
+    if values := grid.values(dim):
+        return plain_values(values)
+    return np.array(grid.sample_labels or range(grid.sizes[dim]))
+
+
+def plain_values(values: tuple[Value, ...]) -> NDArray:
+    """Values of a parameter as numbers, or as texts if some are names."""
+    if any(isinstance(value, str | Definition) for value in values):
+        return np.array([str(value) for value in values], dtype=object)
+    return np.array([as_number(value) for value in values])
+
+
+def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, str]:
+    short = len(parameter.meaning) <= _LONGEST_NAME
+    name = parameter.meaning if short else parameter.name.replace("_", " ")
+    attributes = {"long_name": name, "comment": parameter.meaning, "symbol": parameter.symbol}
+    if parameter.kind != "name":
+        attributes["units"] = parameter.units
+    if isinstance(values[0], Fraction):
+        attributes["fractions"] = " ".join(map(str, values))
+    return attributes
+
+
+def margins(
+    grid: Grid, points: Distinct | None = None, without_compiler: bool = False
+) -> dict[str, NDArray[Any]]:
+    """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
+
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Without a compiler they are
+    known to 1e-5. ``points`` are the distinct points of the grid, if they are known.
+    """
+    if not (grid.margins and grid.size):
+        return {}
+    points = points or Distinct.of(grid)
+    found = {name: own[points.index] for name, own in _margins_of(points, without_compiler).items()}
+    names = "curvature", "face", "slip_scale", "body_share", "bulk_stress_amplitude"
+    curvature, face, slip, share, pull = grid.at(np.arange(grid.size), *names)
+    # The stick zone is both bodies', whichever of them carries the bulk stress.
+    shift = np.where(pull == 0.0, 0.0, found["unit_shift"] * pull * np.abs(share))
+    radius = found["contact_radius"]
+    width = radius - found["stick_radius"]  # of the slip zone
+    with np.errstate(divide="ignore", invalid="ignore"):
+        told: dict[str, NDArray] = {
+            "stick_zone": found["stick_zone"].astype(np.int8),
+            "bulk_shift": np.where(shift <= width, shift, np.nan),
+            "bulk_shift_ratio": shift / width,
+            "prescribed_force_ratio": found["force_ratio"],
+            "radius_ratio": (radius - face) * curvature,
+            "slide_ratio": found["slide"] * slip / radius,
+        }
+    return {name: told[name] for name in grid.margins}
+
+
+def _margins_of(points: Distinct, without_compiler: bool) -> dict[str, NDArray[Any]]:
+    """Margins of distinct points in the units of the solver, and ``stick_zone``."""
+    from swtstudy.solver.margins import foreseen, margins_of
+
+    found: dict[str, NDArray[Any]] = {}
+    for rows in alike(points.rows):
+        for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
+            own = points_from(points.rows[some], points.definitions)
+            with np.errstate(all="ignore"):
+                made = foreseen(own) if without_compiler else margins_of(own)
+            approximately = 1.0 + (not is_plane(own.profile))
+            made["stick_zone"] = np.where(made["moved"] > 0.0, np.maximum(made["moved"], approximately), 0.0)
+            for name, values in made.items():
+                found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
+    return found
+
+
+def foreseen_lines(grid: Grid) -> tuple[str, ...]:
+    """The lines on validity that results of a grid will have whatever their s; none of a very large grid.
+
+    They tell tangential forces above μ F_N, contacts too large for half-spaces, and bulk strains that shift
+    the stick zone: limits of the model that loads alone tell, before a point is solved.
+    """
+    if grid.size > MOST_FORESEEN or not grid.margins:
+        return ()
+    found = margins(grid, without_compiler=True)
+    lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + ROUNDING
+    states = [REGIMES.index(name) for name in ("no_equilibrium", "stick")]
+    arrays = {name: np.full(grid.size, np.nan) for name in SOLVED}
+    arrays["regime"] = np.where(lost, *states).astype(np.int8)
+    return tuple(str(label(grid, arrays | found, Request()).attrs.get("validity", "")).splitlines())

@@ -162,11 +162,12 @@ def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
     at_tip = (_values(dataset, "exponent") < 2.0) & (np.abs(_values(dataset, "critical_x")) < BESIDE_TIP)
     yield at_tip, "swt is largest at the tip", ": s depends on how a real tip is rounded"
     out = _above_line(dataset)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        factor = np.where(out, surface / s, 0.0)
-    times = f"s_surface is up to {_number(factor.max())} times as large"
-    times = times if np.isfinite(factor.max()) else "s is 0, and s_surface is not,"
-    yield out, "s is not the largest value", f": {times}{_place(dataset, factor)}"
+    if out.any():
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = np.where(out, surface / s, 0.0)
+        times = f"s_surface is up to {_number(factor.max())} times as large"
+        times = times if np.isfinite(factor.max()) else "s is 0, and s_surface is not,"
+        yield out, "s is not the largest value", f": {times}{_place(dataset, factor)}"
     if "bulk_shift_ratio" in dataset:
         unknown = np.isnan(_values(dataset, "bulk_shift_ratio")) & (state == REGIMES.index("partial_slip"))
         words = "shift of the stick zone by bulk strain unknown"

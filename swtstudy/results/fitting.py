@@ -19,8 +19,7 @@ import pandas as pd
 import xarray as xr
 
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.labelled import margins
-from swtstudy.points.solve import solve_grid
+from swtstudy.points.solve import margins, solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units

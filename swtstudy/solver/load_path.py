@@ -4,25 +4,184 @@ from __future__ import annotations
 
 import itertools
 import warnings
+from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.kernel.loops import without_collinear
-from swtstudy.solver.loop import FINITE, LARGEST, Loop, checked_name
-from swtstudy.solver.smooth_path import SmoothPath, sampled
+from swtstudy.kernel.loops import ends_of_sum, without_collinear
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import StudyError, literal, refused
-from swtstudy.vocabulary.parameters import MANY_TURNS
+from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
+from swtstudy.vocabulary.mistakes import StudyError, is_number, literal, plain_number, refused
+from swtstudy.vocabulary.parameters import MANY_TURNS, PAIRS
 
+#: Largest number of a loop: squares of it are numbers still, whatever its unit.
+LARGEST = 1e100
+FINITE = f"finite numbers, in magnitude up to {LARGEST:g}"
+#: How many times as far from 0 as half of its range the middle of a column of deviations may be.
+FAR = 2.0
+#: Amplitudes below this share of the largest one are rounding of a Fourier transform.
+ROUNDING = 1e-12
+#: Instants at which a loop is drawn.
+DRAWN = 721
+#: Highest harmonic of a loop, as for the frequency ratio of two oscillations.
+HIGHEST_ORDER = 64
+#: Samples of a function for its harmonics.
+SAMPLES = 1024
 #: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000
 #: Sides of a loop that cost as much as one oscillation: 100 take as long as 8 to 16 of them, 200 as 32.
 SIDES_PER_OSCILLATION = 12
+
+
+class Loop(Definition):
+    """A closed loop of the normal and the tangential load, run through again and again.
+
+    The normal load is 1 + its amplitude times c_n, the tangential one its amplitude times c_t, of whatever is
+    prescribed. A bulk stress may go with it: its mean plus its amplitude times c_b.
+    """
+
+    parameter: ClassVar[str] = "load"
+
+    def __init__(self, name: object, mean_normal: object) -> None:
+        self.name = checked_name(name)
+        #: The mean normal load, in the unit of its column, from which c_n deviates; None if it is unknown.
+        self.mean_normal = None if mean_normal is None else plain_number(mean_normal)
+        if self.mean_normal is not None and not 0.0 < self.mean_normal <= LARGEST:
+            found = literal(mean_normal) if isinstance(mean_normal, str) else f"{self.mean_normal:g}"
+            raise refused(f"mean_normal of {name}", found, "a positive number: bodies are pressed")
+
+    @property
+    @abstractmethod
+    def ends(self) -> list[tuple[float, float]]:
+        """Least and largest c_n, c_t and, with a bulk stress, c_b."""
+
+    @property
+    def normal_ends(self) -> tuple[float, float]:
+        """Least and largest c_n."""
+        return self.ends[0]
+
+    @property
+    def bulk_ends(self) -> tuple[float, float] | None:
+        """Least and largest c_b; None where there is no bulk stress."""
+        return self.ends[2] if len(self.ends) > 2 else None
+
+    @property
+    def is_absolute(self) -> bool:
+        """True if c_n looks like a load itself, not like its deviation from the mean."""
+        low, high = self.normal_ends
+        return abs(low + high) > FAR * (high - low)
+
+    @property
+    def scaled_by(self) -> tuple[str, ...]:
+        return (*PAIRS.values(), *(("bulk_stress_amplitude",) if self.bulk_ends else ()))
+
+    def content(self) -> dict[str, Any]:
+        """The mean normal load, where it is known; the kinds of loops add what they are made of."""
+        return {} if self.mean_normal is None else {"mean_normal": self.mean_normal}
+
+    @abstractmethod
+    def course(self) -> FloatArray:
+        """c_n, c_t and, with a bulk stress, c_b over a round, its begin once more at the end: (T, 2 or 3)."""
+
+
+def checked_name(name: object) -> str:
+    """The name of a loop.
+
+    Raises
+    ------
+    StudyError
+        A ValueError if it is not a name, or the name of a built-in load.
+    """
+    if mistake := wrong_name(name, "load"):
+        raise StudyError([mistake])
+    return str(name)
+
+
+class SmoothPath(Loop):
+    """A loop of sums of harmonics; see `LoadPath.harmonic_sum`."""
+
+    def __init__(
+        self, name: str, normal: object, tangential: object, bulk: object = (), *, mean_normal: object = None
+    ) -> None:
+        super().__init__(name, mean_normal)
+        columns = {"normal": normal, "tangential": tangential, "bulk": bulk}
+        #: Rows of order, amplitude and phase of c_n, c_t and c_b.
+        self.harmonics = {key: _checked_harmonics(rows, f"{key} of {name}") for key, rows in columns.items()}
+        if ends_of_sum(self.harmonics["bulk"]) == (0.0, 0.0):
+            del self.harmonics["bulk"]
+        if not any(order and size for rows in self.harmonics.values() for order, size, _ in rows):
+            raise refused(f"harmonics of {name}", "nothing that changes", "a loop")
+
+    def content(self) -> dict[str, Any]:
+        return self.harmonics | super().content()
+
+    @classmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> SmoothPath:
+        rows = content["normal"], content["tangential"], content.get("bulk", ())
+        return cls(name, *rows, mean_normal=content.get("mean_normal"))
+
+    @cached_property
+    def cost(self) -> int:
+        orders = (order for rows in self.harmonics.values() for order, size, _ in rows if size)
+        return 1 + int(max([1, *orders]))
+
+    @cached_property
+    def ends(self) -> list[tuple[float, float]]:
+        return [ends_of_sum(rows) for rows in self.harmonics.values()]
+
+    def course(self) -> FloatArray:
+        turn = np.linspace(0.0, 2.0 * np.pi, DRAWN)
+        columns = [
+            sum((size * np.sin(order * turn + phase) for order, size, phase in rows), np.zeros(DRAWN))
+            for rows in self.harmonics.values()
+        ]
+        return np.stack(columns, axis=1)
+
+
+def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:
+    """A smooth loop from a function; see `LoadPath.sampled`."""
+    instant = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
+    try:
+        columns = [np.broadcast_to(np.asarray(each, float), instant.shape) for each in course(instant)]
+        if len(columns) not in (2, 3):
+            raise ValueError(f"{len(columns)} columns")
+    except (TypeError, ValueError) as error:
+        allowed = "c_n and c_t, or c_n, c_t and c_b, each of the shape of φ"
+        raise refused(f"course of {name}", f"a function that fails ({error})", allowed) from None
+    if not all(np.isfinite(each).all() for each in columns):
+        raise refused(f"course of {name}", "a value that is no finite number", "finite numbers")
+    return SmoothPath(name, *[_harmonics(each, name) for each in columns])
+
+
+def _harmonics(values: FloatArray, name: str) -> list[tuple[int, float, float]]:
+    """Order, amplitude and phase of the harmonics of even samples over a period."""
+    found = np.fft.rfft(values) / len(values)
+    found[1:] *= 2.0
+    size = np.abs(found)
+    kept = np.flatnonzero(size > ROUNDING * size.max(initial=0.0))
+    if kept.max(initial=0) > HIGHEST_ORDER:
+        beyond = f"harmonics beyond the order {HIGHEST_ORDER}, of up to {size[HIGHEST_ORDER + 1 :].max():.1g}"
+        allowed = "a smooth loop; one with corners has vertices: LoadPath(name, vertices)"
+        raise refused(f"course of {name}", beyond, allowed)
+    # cos(kφ + β) = sin(kφ + β + π/2).
+    return [(int(k), float(size[k]), float(np.angle(found[k]) + 0.5 * np.pi)) for k in kept]
+
+
+def _checked_harmonics(rows: object, key: str) -> list[list[float]]:
+    """Rows of order, amplitude and phase."""
+    allowed = f"rows of order (a whole number up to {HIGHEST_ORDER}), amplitude and phase"
+    if not isinstance(rows, Sequence | np.ndarray) or isinstance(rows, str):
+        raise refused(key, literal(rows), allowed)
+    for row in rows:
+        sound = isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(map(is_number, row))
+        sound = sound and all(abs(plain_number(each)) <= LARGEST for each in row)
+        if not (sound and row[0] == int(row[0]) and 0 <= row[0] <= HIGHEST_ORDER):
+            raise refused(key, literal(row), allowed)
+    return [[int(row[0]), float(row[1]), float(row[2])] for row in rows]
 
 
 class LoadPath(Loop):
@@ -62,7 +221,7 @@ class LoadPath(Loop):
 
     def __init__(self, name: str, vertices: ArrayLike, mean_normal: float | None = None) -> None:
         super().__init__(name, mean_normal)
-        found = _checked(vertices, self.name)
+        found = _checked_vertices(vertices, self.name)
         if found.shape[1] == 3 and not found[:, 2].any():
             found = found[:, :2]
         lean = without_collinear(found) + 0.0
@@ -89,7 +248,7 @@ class LoadPath(Loop):
         loads
             As ``vertices``, with the normal load itself instead of its deviation.
         """
-        found = _checked(loads, checked_name(name))
+        found = _checked_vertices(loads, checked_name(name))
         mean = float(found[:, 0].mean())
         return cls(name, found - np.eye(1, found.shape[1]) * mean, mean)
 
@@ -210,7 +369,7 @@ class LoadPath(Loop):
         return np.concatenate([self.vertices, self.vertices[:1]])
 
 
-def _checked(vertices: ArrayLike, name: str) -> FloatArray:
+def _checked_vertices(vertices: ArrayLike, name: str) -> FloatArray:
     """The vertices of a loop as numbers, all of them finite."""
     key = f"vertices of {name}"
     try:

@@ -14,7 +14,7 @@ from swtstudy.vocabulary.arrays import FloatArray, IntArray, Shape
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, PARAMETERS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.solver.loop import Loop
+    from swtstudy.solver.load_path import Loop
     from swtstudy.solver.table import AnyProfile
 
 #: Numbers that points have unless they are given.

@@ -16,7 +16,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from swtstudy.points.reading import END, LONGEST_AXIS
-from swtstudy.solver.smooth_path import HIGHEST_ORDER
+from swtstudy.solver.load_path import HIGHEST_ORDER
 from swtstudy.study.figure import FigureLayout, Flag
 from swtstudy.study.units.life import Block
 from swtstudy.study.units.rows import right_place

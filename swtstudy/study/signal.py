@@ -13,9 +13,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.kernel.loops import slope_of
-from swtstudy.solver.load_path import LoadPath
-from swtstudy.solver.loop import Loop, checked_name
-from swtstudy.solver.smooth_path import HIGHEST_ORDER
+from swtstudy.solver.load_path import HIGHEST_ORDER, LoadPath, Loop, checked_name
 from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import SignalTable, with_keys

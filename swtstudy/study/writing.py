@@ -1,17 +1,23 @@
-"""The text of a study that was not read from a file, or names other files."""
+"""The text of a study that was not read from a file, or names other files; and that of its definitions."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import asdict
 from typing import Any
 
+from pydantic_core import from_json
+
 from swtstudy.points.grid import Grid
+from swtstudy.solver.load_path import LoadPath
+from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
 from swtstudy.study.units.rows import CARRIER_KEY, NAMES_KEY, SIMILAR_KEY
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.mistakes import literal
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request
 
 
@@ -81,3 +87,35 @@ def quoted(value: object) -> str:
     """A value as in TOML; fractions and what has a name are texts."""
     # JSON is TOML but for DEL, which TOML wants escaped.
     return json.dumps(value, ensure_ascii=False, default=str).replace("\x7f", "\\u007f")
+
+
+_KINDS: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
+
+
+def definitions_text(definitions: Iterable[Definition]) -> str:
+    """Write definitions as the text of an attribute."""
+    return json.dumps(
+        [
+            {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
+            for each in definitions
+        ]
+    )
+
+
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
+    """Read the definitions, by parameter and name, from the attributes of a Dataset.
+
+    Raises
+    ------
+    ValueError
+        If the text is not one of `definitions_text`.
+    """
+    text = attributes.get("definitions", "[]")
+    found: dict[str, dict[str, Definition]] = {}
+    try:
+        for raw in from_json(text):
+            defined = _KINDS[raw["parameter"]].of_content(raw["name"], raw["content"])
+            found.setdefault(raw["parameter"], {})[raw["name"]] = defined
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"not definitions: {literal(text)} ({error})") from None
+    return found

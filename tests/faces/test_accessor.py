@@ -212,7 +212,7 @@ def test_results_of_solve():
         "from swtstudy import Study; import dask.array, xarray.core.dataset",
         "from swtstudy.archive.archive import open_results; import xarray",
         "from swtstudy.points.solve import solve",
-        "import swtstudy.points.labelled",
+        "import swtstudy.points.solve",
     ],
 )
 def test_the_accessor_is_there_whatever_is_imported_first(imports):

@@ -10,10 +10,9 @@ import swtstudy
 from swtstudy.kernel.batch import solve_batch
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
-from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.events import force_ratio, slide
 from swtstudy.kernel.load import bulk_at, bulk_rates, load_at, rates_at
-from swtstudy.kernel.loads import bimodal, harmonic_sum, polygon
+from swtstudy.kernel.loads import bimodal, harmonic_sum, polygon, prescribe
 from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
 pytestmark = pytest.mark.xdist_group("kernel")

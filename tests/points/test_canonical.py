@@ -7,7 +7,7 @@ from told import sayings, warned
 from swtstudy import Study
 from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.points.grid import Grid, alike, canonical_points, describe_point, group_rows, rounded
-from swtstudy.points.labelled import turned
+from swtstudy.points.solve import turned
 
 BODIES = "friction=0.3, poisson_ratio=0.3"
 WAVY = (

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from swtstudy import Study
-from swtstudy.points.labelled import label, values_along
+from swtstudy.points.solve import label, values_along
 
 
 def labelled(text: str, **changes: Any) -> xr.Dataset:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.grid import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, Grid, code_of, rounded
 from swtstudy.points.values import Value, amplitudes_of, as_number, press_steadily
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import Loop
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.study.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants

@@ -18,8 +18,7 @@ from swtstudy.points import rules
 from swtstudy.points.grid import SHAPE_COLUMNS, Grid
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
-from swtstudy.solver.load_path import LoadPath
-from swtstudy.solver.loop import Loop
+from swtstudy.solver.load_path import LoadPath, Loop
 from swtstudy.study.figure import reference
 from swtstudy.study.units import grid as grids
 from swtstudy.study.units import rows as units

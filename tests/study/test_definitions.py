@@ -10,7 +10,7 @@ import pytest
 from told import lines_of, sayings
 
 from swtstudy import LoadPath, TabulatedProfile
-from swtstudy.solver.definitions import defined_in, definitions_text
+from swtstudy.study.writing import defined_in, definitions_text
 
 SQUARE = [[0, 1], [0.5, 1], [0.5, -1], [0, -1]]
 r = np.linspace(0.0, 2.0, 21)
