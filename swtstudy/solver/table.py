@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -104,10 +104,23 @@ class TabulatedProfile(Definition):
     def notes(self) -> dict[str, Any]:
         return {"deviation": self.deviation}
 
-    def scaled(self, length: float, depth: float) -> TabulatedProfile:
-        """The same profile in other units: radii in ``length``, heights in ``depth``."""
-        scaled = self.radius / length, self.height / depth, self.smoothing / depth
-        return TabulatedProfile(self.name, *scaled, self.geometry)
+    def scaled(
+        self, length: float, depth: float, rounded: Callable[[FloatArray], FloatArray] = np.asarray
+    ) -> TabulatedProfile:
+        """The same profile, with the same fit, in other units: radii in ``length``, heights in ``depth``.
+
+        Its numbers are rounded by a function.
+        """
+        heights = rounded(np.append(self.height, self.smoothing) / depth)
+        own = TabulatedProfile(
+            self.name, rounded(self.radius / length), heights[:-1], heights[-1], self.geometry
+        )
+        power = np.arange(len(self.fit.c))[::-1, None]
+        own.fit = type(self.fit).construct_fast(self.fit.c * length**power / depth, self.fit.x / length)
+        own._sampled = self._sampled[0] / length, self._sampled[1] * (length / depth)
+        if self.smoothing:
+            own._contacts = self._contacts[0] / depth, self._contacts[1] / length
+        return own
 
     @cached_property
     def fit(self) -> PPoly:
@@ -291,11 +304,11 @@ def spline(radius: FloatArray, height: FloatArray, smoothing: float) -> PPoly:
         r[0] = np.clip(begin, r[0], last)
     if smoothing == 0.0:
         return CubicSpline(r, f, bc_type=((1, 0.0), "not-a-knot"))
-    # Even in r: that makes the slope vanish at the begin.
+    # Even in r: that makes the slope vanish at the begin. The penalty of curvature goes with the cube of r.
     both = np.concatenate([2.0 * r[0] - r[:0:-1], r]), np.concatenate([f[:0:-1], f])
 
     def smooth(logarithm: float) -> PPoly:
-        return PPoly.from_spline(make_smoothing_spline(*both, lam=10.0**logarithm))
+        return PPoly.from_spline(make_smoothing_spline(*both, lam=10.0**logarithm * r[-1] ** 3))
 
     def excess(logarithm: float) -> float:
         missed = smooth(logarithm)(r) - f
@@ -307,7 +320,7 @@ def spline(radius: FloatArray, height: FloatArray, smoothing: float) -> PPoly:
     elif excess(highest) <= 0.0:
         found = smooth(highest)
     else:
-        found = smooth(brentq(excess, lowest, highest, xtol=1e-6))
+        found = smooth(brentq(excess, lowest, highest, xtol=1e-9))
     first = int(np.searchsorted(found.x, r[0], "right")) - 1
     part = PPoly(found.c[:, first:].copy(), found.x[first:])
     part.c[-1] -= part.c[-1, 0]

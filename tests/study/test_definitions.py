@@ -293,3 +293,21 @@ failing(lambda: defined_in({"definitions": "3"})) » not definitions: '3' ('int'
 @pytest.mark.parametrize(("expression", "said"), CASES)
 def test_a_definition_is_what_it_is_made_of(expression: str, said: list[str]) -> None:
     assert lines_of(eval(expression)) == said
+
+
+@pytest.mark.parametrize("units", [(2.0, 0.5), (1e-4, 1e-6), (1e5, 1e3)])
+@pytest.mark.parametrize("table", [PAD, FACED, STRIP, SMOOTHED], ids=str)
+def test_a_table_in_other_units_is_as_if_it_were_fitted_in_them(
+    table: TabulatedProfile, units: tuple[float, float]
+) -> None:
+    scaled = table.scaled(*units)
+    fitted = TabulatedProfile("anew", scaled.radius, scaled.height, scaled.smoothing, scaled.geometry)
+    s = np.linspace(0.1, 1.1, 11) * fitted.end
+    for one, other in (
+        (scaled.density(s), fitted.density(s)),
+        (scaled.rise(s), fitted.rise(s)),
+        (scaled.fit(scaled.radius[1:]), fitted.fit(fitted.radius[1:])),
+        (scaled.compact_radius, fitted.compact_radius),
+        (scaled.smoothed_share(0.2 / units[1]), fitted.smoothed_share(0.2 / units[1])),
+    ):
+        np.testing.assert_allclose(one, other, rtol=1e-6, atol=1e-9 * np.max(other))

@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
-from swtstudy.points.grid import canonical_number, rounded
+from swtstudy.points.grid import rounded
 from swtstudy.solver.at_rest import AtRest, too_small
 from swtstudy.solver.table import AnyProfile, TabulatedProfile
 from swtstudy.study.units.rows import SCALES
@@ -89,9 +89,7 @@ class Moduli:
 @lru_cache(maxsize=64)
 def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
     """A table to the digits of canonical points: in whichever units it was given, it is the same."""
-    pure = table.scaled(length, depth)
-    own = rounded(pure.radius), rounded(pure.height), canonical_number(pure.smoothing)
-    return TabulatedProfile(pure.name, *own, pure.geometry)
+    return table.scaled(length, depth, rounded)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +122,7 @@ class Contact:
     shape: Mapping[str, float] = field(default_factory=dict)
     contact_length: float | None = None
 
-    @property
+    @cached_property
     def length_scale(self) -> float:
         """The length a_H = √(R δ0), and of a power law or a table its contact radius at δ0."""
         if isinstance(self.profile, TabulatedProfile):
@@ -166,10 +164,10 @@ class Contact:
         """Radius of its flat face, or half its width; 0 without one."""
         return max((self.shape.get(name, 0.0) for name in ("flat_radius", "flat_half_width")), default=0.0)
 
-    @property
+    @cached_property
     def contact_radius(self) -> float:
         """The contact radius a at the mean depth δ0; half the width of a strip."""
-        return self.length_scale * float(self._at_rest().radius(np.ones((1, 1)))[0, 0])
+        return self.length_scale * float(self._at_rest.radius(np.ones((1, 1)))[0, 0])
 
     @property
     def normal_force(self) -> float:
@@ -196,10 +194,10 @@ class Contact:
         slip = self.friction * self.depth if self.plane else self.slip_scale
         return self.friction * self.normal_force * slip
 
-    @property
+    @cached_property
     def force_factor(self) -> float:
         """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid; of a strip per length over E* δ0."""
-        return 2.0 * float(self._at_rest().unit()[0, 0])
+        return 2.0 * float(self._at_rest.unit()[0, 0])
 
     @property
     def mean_pressure(self) -> float:
@@ -211,12 +209,13 @@ class Contact:
     @property
     def peak_pressure(self) -> float:
         """Largest pressure at the mean depth, p0 of a paraboloid; inf at the edge of a truncated one."""
-        return self.stress_scale * self._at_rest().largest_pressure()
+        return self.stress_scale * self._at_rest.largest_pressure()
 
+    @cached_property
     def _at_rest(self) -> AtRest:
         return AtRest(self.pure_profile, self.shape_parameters)
 
-    @property
+    @cached_property
     def pure_profile(self) -> AnyProfile:
         """The non-dimensional profile, a table in a_H and δ0."""
         if isinstance(self.profile, str):
