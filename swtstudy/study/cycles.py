@@ -140,15 +140,16 @@ def drift(cycles: FloatArray) -> float:
     return float(-(slope.conj() * step).sum().real / steepness)
 
 
-def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float]] | None:
+def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float], int] | None:
     """The column in which amplitudes of the first or last cycles, (c, m, d), differ from all others.
 
     Returns
     -------
     tuple or None
-        The column, the number of cycles at an end, and the amplitudes of the first of them, the last of them,
-        and of the mean cycle; None if amplitudes only scatter. The scatter is of the steps from cycle to
-        cycle of all others: a slow drift has no share in it.
+        The column, the number of cycles at an end, the amplitudes of the first of them, the last of them, and
+        of the mean cycle, and the number of cycles in the first half up to the last one that differs from the
+        second half; None if amplitudes only scatter. The scatter is of the steps from cycle to cycle of all
+        others: a slow drift has no share in it.
     """
     mean = cycles.mean(axis=0)
     wave, count, size = mean - mean.mean(axis=0), len(cycles), 0.5 * np.ptp(mean, axis=0)
@@ -161,7 +162,10 @@ def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float]] | None:
             for each in (own, own[::-1]):
                 off = abs(each[:ends].mean() - each[ends:].mean())
                 if off > max(least[column], likely * np.diff(each[ends:]).std(ddof=1)):
-                    return int(column), ends, [own[:ends].mean(), own[-ends:].mean(), size[column]]
+                    half = own[count // 2 :]
+                    apart = np.abs(own[: count // 2] - np.median(half)) > max(least[column], np.ptp(half))
+                    unsettled = int(np.flatnonzero(apart).max(initial=-1)) + 1
+                    return int(column), ends, [own[:ends].mean(), own[-ends:].mean(), size[column]], unsettled
     return None
 
 

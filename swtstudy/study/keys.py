@@ -94,6 +94,8 @@ class SignalTable(FileTable):
     """Length of a cycle instead of their number, in the unit of the time, or in samples."""
     frequency: Positive = None
     """Cycles per unit of the time, such as Hz, instead of the period."""
+    skip_cycles: Annotated[int, "a whole number of cycles, 0 or more", Field(ge=0)] = 0
+    """Number of cycles at the begin of the record, such as a start-up, that are left out."""
     harmonics: Order = None
     """Highest order of a fit of the file's columns by harmonics: a smooth loop."""
     despike: Flag = False

@@ -276,6 +276,8 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     period, frequency
         Length of a cycle instead of their number, in the unit of the time, or in samples without one; or one
         divided by this length.
+    skip_cycles
+        Number of cycles at the begin of the record, such as a start-up, that are left out.
     harmonics
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.
@@ -346,6 +348,11 @@ def signal_from(
         found = f"{samples:.2g} samples a cycle: a cycle takes {period:.3g}, the time steps by {step:.3g}"
         one_unit = "; both in one unit, such as scale = { time = 1e-6 } for µs beside Hz"
         raise refused(key, found, f"2 samples a cycle at least{one_unit * bool(given.time)}")
+    if given.skip_cycles >= count:
+        found = f"{given.skip_cycles} of {number_of(count, 'cycle')}"
+        raise refused("skip_cycles", found, "fewer than all")
+    begin = np.searchsorted(time, time[0] + (given.skip_cycles + ROUNDING) * period, "right") - 1
+    time, values, rows, count = time[begin:], values[begin:], rows[begin:], count - given.skip_cycles
     raw = Signal(name, time, values, period, count, given.absolute, highest)
     if key == "recorded_cycles" and count > 1 and raw.gaps.size:
         at = raw.gaps[0]
@@ -471,10 +478,11 @@ def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
             out = "a slower cycle on which these ride is lost: recorded_cycles = 1 is the record as one cycle"
             yield f"{found}{single[k]:.4g} at most; {out}"
     elif not better and (uneven := cycles.uneven_ends(signal.cycles)):
-        column, ends, (first, last, mean) = uneven
+        column, ends, (first, last, mean), unsettled = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"
         found = f"the first {each} a {NAMES[column]} amplitude of {first:.4g}, the last of {last:.4g}"
-        out = "cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true"
+        out = f"skip_cycles = {unsettled} leaves a start-up out; " if unsettled else ""
+        out += "a block with keep_cycles = true runs all cycles"
         yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
     elif unlike.max() > UNLIKE:
         k = int(unlike.argmax())

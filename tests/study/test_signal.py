@@ -448,3 +448,20 @@ def test_kept_cycles_that_ride_on_a_slower_one_are_told(tmp_path: Path) -> None:
         text += '[[blocks]]\nload = "rig"\nrounds = 1\n'
         _, words = warned(Study.from_text, text, "s", tmp_path)
         assert ["a slower cycle on which these ride is lost" in each for each in words] == [True] * is_told
+
+
+@pytest.mark.parametrize("of_time", [{"recorded_cycles": 50}, {"period": 0.0501}, {"frequency": 1 / 0.0501}])
+def test_cycles_of_a_start_up_are_left_out(tmp_path: Path, of_time: dict[str, float]) -> None:
+    time = np.arange(50 * 31) * (0.0501 / 31)
+    grown = np.minimum(1.0, 0.5 + time / 0.0501 / 24)
+    wave = np.sin(2.0 * np.pi * time / 0.0501)
+    rows = np.stack([time, 300.0 + 20.0 * wave, 100.0 * grown * wave], axis=1)
+    write(tmp_path / "up.csv", rows, "time,normal,tangential")
+    given = {"time": "time", "absolute": True, **of_time}
+    with pytest.warns(UserWarning, match="skip_cycles = 11 leaves a start-up out"):
+        read_signal(tmp_path / "up.csv", **given)
+    signal = read_signal(tmp_path / "up.csv", skip_cycles=12, **given)
+    assert signal.count == len(signal.cycles) == 38
+    np.testing.assert_allclose(np.ptp(signal.mean_cycle, axis=0), [40.0, 200.0], rtol=3e-3)
+    words = "skip_cycles: found 50 of 50 cycles; allowed: fewer than all"
+    refused(words, read_signal, tmp_path / "up.csv", skip_cycles=50, **given)

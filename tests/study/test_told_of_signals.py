@@ -146,12 +146,15 @@ read(wave(400, 40, 3.0, (2, 4)), recorded_cycles=10)
 » each cycle repeats 2 times: recorded_cycles = 20?
 read(cycles(RISE), recorded_cycles=40)
 » 40 cycles of 20 samples; the cycles scatter by 0.48 (normal), 11 (tangential) » 4000.80091
-» the first 4 cycles have a tangential amplitude of 11.93, the last of 60.03, and their mean, 52.51, is the
-    load: cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true
+» the first 4 cycles have a tangential amplitude of 11.93, the last of 60.03, and their mean, 52.51, is
+    the load: skip_cycles = 10 leaves a start-up out; a block with keep_cycles = true runs all cycles
+read(cycles(RISE), recorded_cycles=40, skip_cycles=10)
+» 30 cycles of 20 samples; the cycles scatter by 0.47 (normal), 0.5 (tangential) » 4000.84164
+read(cycles(RISE), recorded_cycles=40, skip_cycles=39) » 1 cycle of 20 samples » 4000.565
 read(cycles([1.0] * 11 + [0.6]), recorded_cycles=12)
 » 12 cycles of 20 samples; the cycles scatter by 0.52 (normal), 4.9 (tangential) » 4000.90793
-» the first cycle has a tangential amplitude of 59.99, the last of 36.11, and their mean, 58.04, is the load:
-    cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true
+» the first cycle has a tangential amplitude of 59.99, the last of 36.11, and their mean, 58.04, is the
+    load: a block with keep_cycles = true runs all cycles
 read(cycles([0.5, 1.0, 1.0, 1.0]), recorded_cycles=4)
 » 4 cycles of 20 samples; the cycles scatter by 0.56 (normal), 11 (tangential) » 3999.64572
 » the cycles' tangential loads differ by 10.6, and their mean, which is the load, moves by 37.1 (standard
@@ -168,14 +171,14 @@ read(cycles([0.93] + [1.0] * 19, 0.01), recorded_cycles=20)
 » 20 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.66 (tangential) » 4000.0142
 read(cycles([0.88] + [1.0] * 19, 0.01), recorded_cycles=20)
 » 20 cycles of 20 samples; the cycles scatter by 0.01 (normal), 1.1 (tangential) » 4000.0142
-» the first 2 cycles have a tangential amplitude of 56.4, the last of 60, and their mean, 59.64, is the load:
-    cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true
+» the first 2 cycles have a tangential amplitude of 56.4, the last of 60, and their mean, 59.64, is the
+    load: skip_cycles = 1 leaves a start-up out; a block with keep_cycles = true runs all cycles
 read(cycles([0.96] + [1.0] * 9, 0.01), recorded_cycles=10)
 » 10 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.54 (tangential) » 4000.01357
 read(cycles([0.94] + [1.0] * 9, 0.01), recorded_cycles=10)
 » 10 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.81 (tangential) » 4000.01357
-» the first cycle has a tangential amplitude of 56.4, the last of 60, and their mean, 59.64, is the load: cut
-    the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true
+» the first cycle has a tangential amplitude of 56.4, the last of 60, and their mean, 59.64, is the load:
+    skip_cycles = 1 leaves a start-up out; a block with keep_cycles = true runs all cycles
 read(wave(200, 50, 0.3, (1, 3)), recorded_cycles=4, harmonics=3, absolute=True)
 » 4 cycles of 50 samples; mean normal load 199.96; the cycles scatter by 0.27 (normal), 0.27 (tangential); the
     harmonics miss 0.27 (normal), 0.27 (tangential) » 9997.53782
