@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.study.units.rows import KNOWN, Units, unit_factor
+from swtstudy.study.units.rows import KNOWN, PER_LENGTH, UNIT_KINDS, Units, likely_units, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
@@ -213,20 +213,34 @@ class UserTable:
     def unit(self, name: str, kind: str) -> tuple[str, str]:
         """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
 
-        In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
+        In a row of units or in brackets a unit of any kind counts, also one that is written in another way,
+        elsewhere one of the kind asked for.
         """
         column = self.column(name)
         header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
-        bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
-        for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
+        texts = [cell.strip("[]() "), *map(str.strip, re.findall(r"[\[(]([^\[\]()]+)[\])]", header))]
+        for text in texts:
             kinds = [each for each, known in KNOWN.items() if text in known]
             if kinds:
                 return text, kind if kind in kinds else kinds[0]
+        for text in texts:
+            likely = [(unit, each) for each in UNIT_KINDS for unit in likely_units(each, text)]
+            if len(likely) == 1:
+                return likely[0]
         for text in (cell, header):
-            words = re.findall(r"[A-Za-zµμ]+", text)
-            if words and words[-1] in KNOWN[kind] and words[-1] != "in":
-                return words[-1], kind
+            words = re.findall(r"[A-Za-zµμ/]+", text)
+            for each in (PER_LENGTH, "force") if kind in (PER_LENGTH, "force") else (kind,):
+                if words and words[-1] in KNOWN[each] and words[-1] != "in":
+                    return words[-1], each
         return "", kind
+
+    def strange_unit(self, name: str) -> str:
+        """The cell in the row of units, or the text in square brackets in the header, of a column."""
+        column = self.column(name)
+        cell = (self.units[column : column + 1] or [""])[0].strip("[]() ")
+        bracket = re.search(r"\[([^\[\]]+)\]", self.headers[column])
+        text = cell or (bracket[1].strip() if bracket else "")
+        return text if any(map(str.isalpha, text)) else ""
 
     def refused(self, place: str, found: str, allowed: str) -> StudyError:
         """The error of a mistake at a place in the file."""
@@ -415,15 +429,19 @@ def read_columns(
     with report:
         table = UserTable(path, names, optional, form)
         report += table.report
-        for name in () if form.columns else (name for name in optional if not table.has(name)):
+        for name in (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
             if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-                allowed = f"{name}, if that is meant, or another name"
                 found = f"the column {literal(alike[0])}"
+                if form.columns:
+                    reads = f"columns.{name} = {literal(alike[0])} reads it"
+                    warnings.warn(f"{path.name}: {found} is left alone; {reads}", stacklevel=4)
+                    continue
+                allowed = f"{name}, if that is meant, or another name"
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
-        if units:
-            report += wrong_units(table, {name: kind for name, kind in kinds.items() if name in names}, units)
+        own = {name: kind for name, kind in kinds.items() if name in names}
+        report += wrong_units(table, own, units) if units else _different_units(table, own)
         empty = table.incomplete(names) if gaps else []
         if 0 < len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
@@ -462,13 +480,47 @@ def wrong_units(table: UserTable, kinds: Mapping[str, str | None], units: Units)
     return [each for name, own in labels.items() for each in wrong_unit(table, name, *own)]
 
 
+def _different_units(table: UserTable, kinds: Mapping[str, str]) -> list[Mistake]:
+    """The mistake of columns of one kind in different units, where no study says which unit is right."""
+    scale, first = table.form.scale, dict[str, tuple[str, str]]()
+    for name, kind in kinds.items():
+        unit, own_kind = table.unit(name, kind)
+        other, label = first.setdefault(own_kind, (name, unit)) if unit else (name, "")
+        if not {name, other} & {*scale} and (factor := unit_factor(own_kind, unit, label)) != 1.0:
+            found = f"{literal(table.form.header(name))} in {unit} beside {other} in {label}"
+            return [Mistake("", found, f"scale = {{ {name} = {factor:g} }}: one unit for both", table.source)]
+    return []
+
+
+#: Other kinds that a number times the column may make the right one, and the factor.
+_WAYS = {
+    ("force", PER_LENGTH): "the length of the contact",
+    (PER_LENGTH, "force"): "1 over the length of the contact; or contact_length, with which loads are forces",
+    ("stress", "strain"): "Young's modulus times the unit of the strain",
+    ("stress", "force"): "1 over the area of the section",
+    **{(kind, "voltage"): "what a volt stands for" for kind in ("length", "force", PER_LENGTH, "stress")},
+}
+
+
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
-    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
+    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way.
+
+    A unit that is not known is told.
+    """
+    kind = PER_LENGTH if kind == "force" and label in KNOWN[PER_LENGTH] else kind
     column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
     factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
+    way = _WAYS.get((kind, own_kind), "")
+    if label and own is None and not unit and (strange := table.strange_unit(name)):
+        settled = f"; scale = {{ {name} = 1 }} says so" * table.has_keys
+        words = f"the unit {strange} of {column} is not known: it is read as {label}{settled}"
+        warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=5)
+    if own_kind != kind and way and own is not None:
+        return []
     if own_kind != kind:
         found = f"{column} in {unit} as {name}, which is {_one(kind)}"
-        allowed = f"a column with {_one(kind)}, not {_one(own_kind)}, whatever its scale"
+        allowed = f"a column with {_one(kind)}, not {_one(own_kind)}, "
+        allowed += f"or scale = {{ {name} = … }}, {way}" if way and table.has_keys else "whatever its scale"
     elif factor == 1.0 or (own is not None and not math.isclose(abs(own) * factor, 1.0)):
         return []
     else:

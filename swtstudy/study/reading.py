@@ -32,7 +32,7 @@ from swtstudy.study.keys import (
 from swtstudy.study.sample import ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes, labels_of
 from swtstudy.study.units.life import Block
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, check_distances, read_contacts
@@ -79,6 +79,23 @@ class StudyReader:
     def units(self) -> Units | None:
         """The units, None without any; their mistakes are reported once they are asked for."""
         return None if self.parts.units is None else read_units(self.parts.units, self.report)
+
+    @cached_property
+    def given(self) -> set[str]:
+        """Names of the parameters that are fixed, axes or sampled."""
+        sample = self.parts.sample
+        sampled = (*sample.ranges, *sample.points) if sample else ()
+        return {*self.parts.fixed, *self.parts.axes, *sampled}
+
+    @cached_property
+    def labels(self) -> Units | None:
+        """The labels of units in files: of forces per length, if plane contacts have no length."""
+        values = {**self.parts.fixed, **self.parts.axes}.get("profile")
+        names = [each for each in (values if isinstance(values, list) else [values]) if isinstance(each, str)]
+        tables = self.parts.profiles
+        kinds = [str(getattr(tables.get(name), "geometry", "")) for name in names]
+        profiles = [_ANY_PROFILE.get(kind, name) for name, kind in zip(names, kinds, strict=True)]
+        return labels_of(self.units, profiles, self.given) if self.units else None
 
     def fields(self, text: str) -> dict[str, Any]:
         """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
@@ -158,15 +175,12 @@ class StudyReader:
             allowed = "one of the two: kept cycles are as they were recorded"
             raise refused("", "keep_cycles and harmonics", allowed)
         # A depth and a displacement are recorded beside amplitudes of these.
-        parts = self.parts
-        sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
-        given = {*parts.fixed, *parts.axes, *sampled}
-        given |= {*implied_amplitudes(given, (ANY_MEASURED,), ())}
+        parts, given = self.parts, self.given | {*implied_amplitudes(self.given, (ANY_MEASURED,), ())}
         kinds = KINDS | {column: "length" for column in COLUMNS if f"{column}_amplitude" in given}
         kept = table.keep_cycles and bool(parts.blocks)
         if table.keep_cycles and not kept:
             warnings.warn(f"{name}: without [[blocks]] the mean of its cycles is the load", stacklevel=4)
-        signal = signal_from(self.folder / str(table.file), name, table, self.units, kinds, kept)
+        signal = signal_from(self.folder / str(table.file), name, table, self.labels, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}
         if kept and "bulk_stress_ratio" in given:
@@ -233,7 +247,8 @@ class StudyReader:
             return {}, None, None
         table, given = self.parts.sample, self.raw["sample"]
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
-        return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
+        units = self.labels or Units()
+        return SampleReader(table, given, self.folder, self.report, known, single, units, contacts).read()
 
     def firsts(self, axes: Mapping[str, Any]) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""

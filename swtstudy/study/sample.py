@@ -139,6 +139,8 @@ class SampleReader:
         Definitions of the user, by parameter and name.
     rows
         The parameters that may be sampled.
+    units
+        The labels of units in a file.
     contacts
         The contacts, with the constants that may scatter; None without units.
     """
@@ -149,6 +151,7 @@ class SampleReader:
     report: Report
     known: Known
     rows: Mapping[str, Parameter]
+    units: Units
     contacts: ContactDetails | None = None
 
     def read(self) -> ReadSample:
@@ -194,9 +197,9 @@ class SampleReader:
             for name in lost:
                 header = form.columns[name]
                 found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
-            units = self.contacts.units if self.contacts else Units()
             there = [name for name in own if name in self.rows and name not in lost]
-            found += wrong_units(table, kinds_of(there), units)
+            plain = Units(**vars(self.units)) if "contact_length" in there else self.units
+            found += wrong_units(table, kinds_of(there), plain)
             if empty := table.incomplete(there):
                 words = f"a cell without a value{more_like_it(len(empty))}"
                 found(f"line {empty[0]}", words, "a value of each parameter at each point")

@@ -465,3 +465,18 @@ def test_cycles_of_a_start_up_are_left_out(tmp_path: Path, of_time: dict[str, fl
     np.testing.assert_allclose(np.ptp(signal.mean_cycle, axis=0), [40.0, 200.0], rtol=3e-3)
     words = "skip_cycles: found 50 of 50 cycles; allowed: fewer than all"
     refused(words, read_signal, tmp_path / "up.csv", skip_cycles=50, **given)
+
+
+def test_columns_in_two_units_contradict_each_other_without_a_study(tmp_path: Path) -> None:
+    rows = np.array([[200.0, 0.0], [210.0, 10.0], [190.0, -10.0]])
+    write(tmp_path / "two.csv", rows, "Fn [N],Ft [lbf]")
+    given = {"columns": {"normal": "Fn [N]", "tangential": "Ft [lbf]"}, "absolute": True}
+    words = r"'Ft \[lbf\]' in lbf beside normal in N; allowed: scale = { tangential = 4.44822 }: one unit"
+    refused(words, read_signal, tmp_path / "two.csv", **given)
+    scaled = read_signal(tmp_path / "two.csv", **given, scale={"tangential": 4.44822})
+    assert scaled.values[:, 1].max() == pytest.approx(44.4822)
+    write(tmp_path / "mixed.csv", rows, "Fn [N],u [µm]")  # a force and a displacement
+    read_signal(tmp_path / "mixed.csv", columns={"normal": "Fn [N]", "tangential": "u [µm]"}, absolute=True)
+    write(tmp_path / "trace.csv", rows, "position [mm],height [µm]")
+    columns = {"position": "position [mm]", "height": "height [µm]"}
+    refused("in µm beside position in mm", swtstudy.read_trace, tmp_path / "trace.csv", columns=columns)

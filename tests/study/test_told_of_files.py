@@ -18,9 +18,12 @@ from swtstudy import Study, StudyError
 _FORCES = "normal_force = 100\ntangential_force_amplitude = 10\n"
 _RIG = f"{real.RIG}normal_force = 200\n"
 _BODIES = f'title = "t"\n{real.UNITS}[fixed]\nyoung_modulus = 73e3\npoisson_ratio = 0.33\nfriction = 0.5\n'
+_STRIP = f'{_BODIES}radius = 50\nprofile = "cylinder"\nload = "rig"\n'
 #: Studies that name the file.
 HEADS = {
     "{rig}": f"{real.RIG}[loads.rig]\n",
+    "{strip}": f"{_STRIP}[loads.rig]\n",
+    "{long strip}": f"{_STRIP}contact_length = 8\n[loads.rig]\n",
     "{rig with a displacement}": f"{_RIG}normal_force_amplitude = 1\ntangential_amplitude = 1\n[loads.rig]\n",
     "{rig with a depth}": f"{_RIG}normal_amplitude = 1\ntangential_force_amplitude = 1\n[loads.rig]\n",
     "{points}": 'title = "t"\n[sample]\n',

@@ -36,9 +36,16 @@ UNIT_KINDS = ("length", "force", "stress")
 
 #: Units by kind and label, in m, N and Pa, and properties of materials.
 TABLES = parse_toml(read_text(Path(__file__).with_name("tables.toml")))
+#: The kind of a load of a plane contact without a length.
+PER_LENGTH = "force per length"
 #: Labels that are known: a set of them that is not consistent is a mistake.
 KNOWN: dict[str, dict[str, float]] = TABLES["known"] | {
-    "angle": {"rad": 1.0} | dict.fromkeys(DEGREES, math.radians(1.0))
+    "angle": {"rad": 1.0} | dict.fromkeys(DEGREES, math.radians(1.0)),
+    PER_LENGTH: {
+        f"{force}/{length}": newtons / metres
+        for force, newtons in TABLES["known"]["force"].items()
+        for length, metres in TABLES["known"]["length"].items()
+    },
 }
 #: Names of units as people write them out, and their labels.
 _WRITTEN_OUT = {
@@ -99,7 +106,7 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units:
         found = literal(raw[kind]) if kind in raw else "nothing"
         if label in ("", "1", "rad") or not label.isprintable():
             report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
-        elif likely := _likely_units(kind, label):
+        elif likely := likely_units(kind, label):
             report(f"units.{kind}", found, f"did you mean {' or '.join(likely)}?")
     if all(label in KNOWN[kind] for kind, label in labels.items()):
         length, force, stress = (KNOWN[kind][label] for kind, label in labels.items())
@@ -112,20 +119,20 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units:
     return Units(**labels)
 
 
-def _likely_units(kind: str, label: str) -> list[str]:
+def likely_units(kind: str, label: str) -> list[str]:
     """The known units that a label probably means; none for a known unit, or for one of the user's own.
 
     Examples
     --------
-    >>> _likely_units("length", "milimeter"), _likely_units("force", "mn"), _likely_units("length", "cm2")
+    >>> likely_units("length", "milimeter"), likely_units("force", "mn"), likely_units("length", "cm2")
     (['mm'], ['MN', 'mN'], ['cm'])
-    >>> _likely_units("stress", "N"), _likely_units("length", "furlong")
+    >>> likely_units("stress", "N"), likely_units("length", "furlong")
     (['Pa', 'kPa', 'MPa', 'GPa', 'N/mm²', 'N/mm2', 'psi', 'ksi'], [])
     """
     known = KNOWN[kind]
     if label in known:
         return []
-    if any(label in others for others in KNOWN.values()):
+    if any(label in KNOWN[each] for each in UNIT_KINDS):
         return [*known]
     base = label.rstrip("^-²³0123456789")
     alike = [each for each in known if base in (each, each.lower()) or label.lower() == each.lower()]
