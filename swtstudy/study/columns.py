@@ -228,10 +228,10 @@ class UserTable:
             if len(likely) == 1:
                 return likely[0]
         for text in (cell, header):
-            words = re.findall(r"[A-Za-zµμ/]+", text)
+            words = re.findall(r"[A-Za-zµμ]+/[A-Za-zµμ]+$", text) + re.findall(r"[A-Za-zµμ]+", text)[-1:]
             for each in (PER_LENGTH, "force") if kind in (PER_LENGTH, "force") else (kind,):
-                if words and words[-1] in KNOWN[each] and words[-1] != "in":
-                    return words[-1], each
+                for word in (word for word in words if word in KNOWN[each] and word != "in"):
+                    return word, each
         return "", kind
 
     def strange_unit(self, name: str) -> str:

@@ -24,6 +24,7 @@ HEADS = {
     "{rig}": f"{real.RIG}[loads.rig]\n",
     "{strip}": f"{_STRIP}[loads.rig]\n",
     "{long strip}": f"{_STRIP}contact_length = 8\n[loads.rig]\n",
+    "{rig with forces}": f"{_RIG}normal_force_amplitude = 1\ntangential_force_amplitude = 1\n[loads.rig]\n",
     "{rig with a displacement}": f"{_RIG}normal_force_amplitude = 1\ntangential_amplitude = 1\n[loads.rig]\n",
     "{rig with a depth}": f"{_RIG}normal_amplitude = 1\ntangential_force_amplitude = 1\n[loads.rig]\n",
     "{points}": 'title = "t"\n[sample]\n',

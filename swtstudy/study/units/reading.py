@@ -50,8 +50,9 @@ _SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
 #: Pressure over E* that no metal sustains.
 LARGEST_PRESSURE = 0.1
 #: Friction of no metal, a factor of a measured load that is probably a load itself, and a force over the
-#: normal load that is probably meant as a share of it.
-MOST_FRICTION, MOST_TIMES, SMALL_SHARE = 2.0, 10.0, 0.02
+#: normal load that is probably meant as a share of it. How near to the mean load deviations from it are on
+#: average that are probably the load itself.
+MOST_FRICTION, MOST_TIMES, SMALL_SHARE, NEAR_MEAN = 2.0, 10.0, 0.02, 0.2
 
 
 def read_contacts(
@@ -328,6 +329,12 @@ def doubts_of_units(grid: PhysicalGrid, shown: Collection[str] = ()) -> Iterator
             of = "friction times " * (amplitude == "tangential_amplitude") + "the normal force"
             found = f"{name} {most:g}{unit_words(grid.labels.force)} is {share:.2g} of {of}"
             yield f"{found}: is it meant as a share of that?"
+    for load in (load for load in grid.loops if load.mean_normal is None):
+        middle = 0.5 * sum(load.normal_ends)
+        # Deviations from the mean load whose own mean is that load are likely the load itself.
+        if np.any(np.abs(middle * grid.numbers["normal_amplitude"].values - 1.0) < NEAR_MEAN):
+            found = f"the normal loads of {load} are {middle:.4g} on average, as large as the mean load"
+            yield f"{found} that they are added to: absolute = true, if they are the loads themselves"
     for y, place in zip(shown, map(reference, shown), strict=True):
         if place and place[0] in units.REST_DEPENDS_ON - {"body"}:
             yield f"figure.y: in {y} s is over E* δ0/R, which changes with {place[0]}: SWT has another ratio"
