@@ -67,13 +67,15 @@ def sum_at(rows, t):
     return np.sin(np.outer(t, order) + phase) @ size
 
 
-def slope_of(tangential, bulk):
+def slope_of(tangential, bulk, nearly=NEARLY):
     """Factor with which a bulk stress follows the tangential load.
 
     Parameters
     ----------
     tangential, bulk
         Values over a cycle, shape (…, k).
+    nearly
+        Share of its amplitude by which the bulk stress may be off.
 
     Returns
     -------
@@ -85,7 +87,7 @@ def slope_of(tangential, bulk):
     square = (across * across).sum(axis=-1)
     slope = np.divide((across * along).sum(axis=-1), square, out=np.zeros_like(square), where=square > 0.0)
     off, size = np.abs(along - slope[..., None] * across).max(axis=-1), np.abs(along).max(axis=-1)
-    return np.where(off <= NEARLY * size, slope, 0.0), off <= EXACTLY * size
+    return np.where(off <= nearly * size, slope, 0.0), off <= EXACTLY * size
 
 
 def fold_phase(phase, p, q):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import ndtri, stdtrit
 
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 
@@ -30,10 +30,13 @@ TRIMMED = (0.005, 0.995)
 ENDS, UNEVEN, LEAST_LOAD, CHANCE = (10, 4), 0.05, 0.1, 1e-5
 #: Standard deviations of the chance likeness of white noise to itself; an amplitude over the largest one that
 #: counts; a divisor for 0.
-WHITE, SMALL, TINY = 4.0, 0.1, 1e-300
+WHITE, SMALL, TINY = 4.0, 0.03, 1e-300
 #: Samples in a row of a cut top, and steps of rounding by which it falls beside them: a smooth top of which
 #: so many samples are rounded to one value falls by (3/2)² steps at most.
 IN_A_ROW, ROUNDED = 5, 2.25
+#: Fewest samples of a cycle whose tips are looked at, and whose noise is. Changes of the slope beside a tip
+#: over those at it: of a corner at most, and of a smooth tip at least; a sine of eight samples has 0.41.
+FEWEST_AT_TIPS, FEWEST_SMOOTH, CORNER = 8, 32, (0.25, 0.35)
 #: Share of a cycle's standard deviation, and standard deviations of its noise, by which parts of a cycle that
 #: repeats may differ.
 SAME, NOISE_OF_MEAN = 0.02, 3.0
@@ -114,6 +117,64 @@ def cut_off(cycle: FloatArray, samples: float) -> tuple[FloatArray, int]:
     off = 1.0 - np.sinc(np.arange(len(squares)) / samples)[:, None] ** 2
     orders = np.flatnonzero((squares > SMALL**2 * squares.max(axis=0)).any(axis=1))
     return (off * squares).sum(axis=0) / np.maximum(squares.sum(axis=0), TINY), int(max([1, *orders]))
+
+
+def cut_tips(cycle: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """Share of the range by which the tips of a load are beyond its samples, by column of a cycle (m, d).
+
+    A tip is between the two highest of six samples in a row. Where the slope changes at these two alone, the
+    tip is a corner, at which the lines through the samples on both sides meet. Where it changes on all four
+    inner ones in one sense, the tip is that of the parabola through the highest three. At other tips, such
+    as those of a load that is held, nothing is known to be cut off.
+
+    Returns
+    -------
+    cut, corner
+        Shape (d,): the shares, and whether there is a tip that is a corner.
+    """
+    count, columns = cycle.shape
+    cut, corner = np.zeros(columns), np.zeros(columns, bool)
+    for k in range(columns if count >= FEWEST_AT_TIPS else 0):
+        for column in (cycle[:, k], -cycle[:, k]):
+            at = column[(int(column.argmax()) + np.arange(-3, 4)) % count]
+            at = at if at[4] >= at[2] else at[::-1]
+            bends = np.diff(at, 2)[1:]
+            inner, outer = -bends[1:3].sum(), np.abs(bends[[0, 3]]).sum()
+            if outer <= CORNER[0] * inner and inner > 0.0:
+                before, after = at[3] - at[2], at[5] - at[4]
+                tip = at[3] + before * (at[4] - after - at[3]) / (before - after)
+                corner[k] = True
+            elif outer >= CORNER[1] * inner and (bends < 0.0).all():
+                tip = at[3] - (0.5 * (at[4] - at[2])) ** 2 / (2.0 * bends[1])
+            else:
+                continue
+            cut[k] += max(tip - at[3], 0.0) / max(np.ptp(column), TINY)
+    return cut, corner
+
+
+def white_noise(cycles: FloatArray) -> FloatArray:
+    """Standard deviation of white noise in the columns of cycles, (c, m, d); 0 where samples are too few.
+
+    From its third differences, in which a smooth wave of so many samples has little: 0.2 % of its amplitude.
+    """
+    if cycles.shape[1] < FEWEST_SMOOTH:
+        return np.zeros(cycles.shape[2])
+    third = np.diff(np.concatenate([cycles, cycles[:, :3]], axis=1), 3, axis=1)
+    return np.asarray(np.median(np.abs(third), axis=(0, 1)) / (0.6745 * np.sqrt(20.0)))
+
+
+def raised_by(share: FloatArray, count: int) -> FloatArray:
+    """Share of the amplitude of smooth loads by which noise raises their tips, (d,).
+
+    The highest of the samples counts that are lower than the tip by less than the noise.
+
+    Parameters
+    ----------
+    share, count
+        Standard deviation of the noise over the amplitude, (d,), and samples in a cycle.
+    """
+    samples = count * np.sqrt(2.0 * share) / np.pi
+    return np.asarray(share * np.maximum(ndtri(samples / (samples + 1.0)), 0.0))
 
 
 def noise_of_mean(cycles: FloatArray) -> FloatArray:

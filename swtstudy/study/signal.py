@@ -32,12 +32,17 @@ MOST_DRIFT = 0.08
 #: differences that it leaves at most, and how often a drift corrects it.
 UNLIKE, MOST_TIMES, ALIKE, CORRECTIONS = 0.1, 12, 0.3, 4
 #: Shares that are told: of a load's movement that harmonics leave out, and of its amplitude that straight
-#: lines cut off. Distance of samples from the corners of a loop, over a step, that is none.
-LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 1e-3
+#: lines cut off. Distance over a step by which samples of all cycles are at the same phases.
+LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 0.05
+#: Standard deviations of noise to which ranges are known; a share by which noise raises an amplitude, told.
+OF_NOISE, RAISED = 4.0, 0.02
+#: Most samples of which it is asked whether harmonics leave some of the range out.
+MOST_FITTED = 10_000
 #: Range of the means of kept cycles over the largest range of a cycle: beyond, they ride on a slower one.
 RIDING = 0.05
-#: A normal load that moves by less, over its mean, may have been meant to be constant.
-NEXT_TO_NOTHING = 0.02
+#: A normal load that moves by less, over its mean, may have been meant to be constant. Share of its amplitude
+#: by which noise takes a bulk stress off the tangential load that it follows, at most.
+NEXT_TO_NOTHING, NOISY = 0.02, 0.5
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -162,6 +167,19 @@ class Signal:
         return bool(is_noise and (self.count == 1 or moves <= cycles.noise_of_mean(self.cycles)[0]))
 
     @cached_property
+    def pull(self) -> float:
+        """Factor with which a bulk stress beside a constant normal load follows the tangential load.
+
+        0 where it does not follow but for noise.
+        """
+        if not self.is_steady:
+            return 0.0
+        _, tangential, bulk = self.mean_cycle.T
+        slope = float(slope_of(tangential, bulk, NOISY)[0])
+        rest = self.values[:, 2:] - slope * self.values[:, 1:2]
+        return slope if cycles.structure(rest)[0] == 0.0 else 0.0
+
+    @cached_property
     def loop(self) -> Loop:
         """The loop of the mean cycle, for a study's ``load``."""
         if not self.highest:
@@ -238,6 +256,8 @@ class Signal:
         if self.is_steady:
             mean = self.cycles[..., 0].mean() if self.mean_normal is None else self.mean_normal
             cycle = np.insert(cycle[:, 1:], 0, mean, axis=1)
+        if self.pull:
+            cycle[:, 2] = cycle[:, 2].mean() + self.pull * (cycle[:, 1] - cycle[:, 1].mean())
         return LoadPath(name, cycle - off, self.mean_normal)
 
 
@@ -453,6 +473,8 @@ def _on_stick_zone(signal: Signal) -> Iterator[str]:
     normal = signal.values[:, 0]
     if signal.is_steady and np.ptp(normal):
         yield f"the normal load is constant: it moves by {normal.std():.2g}, which is noise"
+    if signal.pull and not signal.highest and slope_of(*signal.mean_cycle.T[1:])[0] == 0.0:
+        yield "the bulk stress follows the tangential load but for noise, which is left out"
     if signal.is_steady or signal.values.shape[1] < len(NAMES) or signal.mean_normal is None:
         return
     moves = signal.mean_cycle[:, 0].std() / signal.mean_normal
@@ -498,23 +520,67 @@ def _losses(signal: Signal) -> Iterator[str]:
     if signal.highest:
         values = signal.values[: signal._used]
         left = cycles.beside(values, signal.fit)
+        range_left = _range_left_out(signal)
         if left.max() > LEFT_OUT:
             k = int(left.argmax())
             out, moves = cycles.structure(values - signal.fit)[k], values[:, k].std()
             found = f"harmonics = {signal.highest} leaves out {out:.3g} of the {NAMES[k]} load, which moves"
             yield f"{found} by {moves:.3g} (standard deviations): more harmonics, or none"
+        elif (most := np.abs(range_left).max()) > CUT_OFF:
+            k = int(np.abs(range_left).argmax())
+            change = "takes {:.1%} off" if range_left[k] > 0.0 else "adds {:.1%} to"
+            found = f"harmonics = {signal.highest} {change.format(most)} the range of the {NAMES[k]} load"
+            yield f"{found}: more harmonics, or none, as for a load with corners"
         return
-    samples = signal.period / signal.step
-    places = signal.phase / (2.0 * np.pi) * len(signal.mean_cycle)
+    samples, mean = signal.period / signal.step, signal.mean_cycle
+    moving = np.flatnonzero(mean.std(axis=0) > cycles.noise_of_mean(signal.cycles))
+    places = signal.phase / (2.0 * np.pi) * len(mean)
+    off, order = cycles.cut_off(mean[:, moving], samples)
+    tips, corner = cycles.cut_tips(mean[:, moving])
+    white, scatter = (
+        each / np.sqrt(len(signal.cycles)) for each in (cycles.white_noise(signal.cycles), signal.scatter)
+    )
+    noise = np.fmax(white, scatter)
+    phases = ", at other phases in each"
     if signal._is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
-        return  # the samples are the corners of the loop
-    moving = np.flatnonzero(signal.mean_cycle.std(axis=0) > cycles.noise_of_mean(signal.cycles))
-    off, order = cycles.cut_off(signal.mean_cycle[:, moving], samples)
+        off, phases = tips * (tips * np.ptp(mean[:, moving], axis=0) > OF_NOISE * noise[moving]), ""
     if (most := off.max(initial=0.0)) > CUT_OFF:
-        found = f"{samples:.4g} samples a cycle, at other phases in each: straight lines between them take"
-        smooth = f"harmonics = {order} takes nothing off"
-        way = smooth if order <= HIGHEST_ORDER else "more samples are needed"
-        yield f"{found} {most:.1%} off the {NAMES[moving[off.argmax()]]} load; {way}"
+        k = int(off.argmax())
+        found = f"{samples:.4g} samples a cycle{phases}: straight lines between them take"
+        way = (
+            f"harmonics = {order} takes nothing off" if order <= HIGHEST_ORDER else "more samples are needed"
+        )
+        way = "more samples are needed, or vertices = its corners" if corner[k] else way
+        yield f"{found} {most:.1%} off the {NAMES[moving[k]]} load; {way}"
+        return
+    size = np.append(np.abs(mean[:, 0]).max(), 0.5 * np.ptp(mean[:, 1:], axis=0))
+    raised = cycles.raised_by(white / np.maximum(size, cycles.TINY), len(mean)) * (
+        mean.std(axis=0) > 2.0 * white
+    )
+    if (most := raised.max()) > RAISED:
+        k = int(raised.argmax())
+        found = f"noise of {white[k]:.2g} raises the tips of the {NAMES[k]} load by some {most:.1%}"
+        yield f"{found}: more cycles, or harmonics = {order} if it is smooth, average it out"
+
+
+def _range_left_out(signal: Signal) -> FloatArray:
+    """Share of the range of each column that its harmonics leave out, beyond its noise; < 0 if they add some.
+
+    The range is that of as many harmonics as the samples determine beside their noise.
+    """
+    phase, found = signal.phase[:MOST_FITTED], np.zeros(signal.values.shape[1])
+    orders = (order for order in (64, 32, 16, 8) if signal.highest < order <= len(phase) // 3)
+    highest = next((order for order in orders if cycles.determined(phase, order)), 0)
+    if not highest:
+        return found
+    fitted = (2.0 * highest + 1.0) / len(phase)
+    for k, column in enumerate(signal.values[: len(phase)].T):
+        fit, closer = (cycles.harmonics(phase, column, order)[1] for order in (signal.highest, highest))
+        noise = (column - closer).std() * np.sqrt(fitted / (1.0 - fitted))
+        change, size = np.ptp(closer) - np.ptp(fit), cycles.LEAST_LOAD * np.abs(column).max()
+        share = max(abs(change) - OF_NOISE * noise, 0.0) / max(np.ptp(fit), size, cycles.TINY)
+        found[k] = np.copysign(share, change)
+    return found
 
 
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:

@@ -1,6 +1,7 @@
 """Measured signals: from the file of a rig to a loop and a study."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -219,7 +220,8 @@ def test_harmonics_are_those_of_least_squares(tmp_path: Path) -> None:
     np.testing.assert_allclose(rows[0], [0, 3.0, 0.5 * np.pi])
     np.testing.assert_allclose(rows[1], [1, 2.0, 0.5], atol=1e-10)
     # With one that is not fitted the rest is at right angles to all that are.
-    rows = read_signal(tmp_path / "rig.csv", harmonics=3, **given).loop.harmonics["tangential"]
+    with pytest.warns(UserWarning, match="harmonics = 3 takes 2.* off the range of the tangential load"):
+        rows = read_signal(tmp_path / "rig.csv", harmonics=3, **given).loop.harmonics["tangential"]
     fit = sum(size * np.sin(order * phase + angle) for order, size, angle in rows)
     base = [np.ones(50), *(f(k * phase) for k in (1, 2, 3) for f in (np.sin, np.cos))]
     np.testing.assert_allclose(np.array(base) @ (values - fit), 0.0, atol=1e-10)
@@ -394,7 +396,7 @@ def test_a_single_spike_is_told_in_any_number_of_cycles(cycles: int, height: flo
 @pytest.mark.parametrize("shape", ["trapezoid", "triangle", "sine"])
 def test_a_spike_anywhere_leaves_the_samples_beside_it(shape: str, cycles: int, tmp_path: Path) -> None:
     """The first and the last sample, too: a cycle goes on with itself."""
-    phase = 2.0 * np.pi * np.arange(40 * cycles) / 40 + 0.2
+    phase = 2.0 * np.pi * (np.arange(40 * cycles) / 40 + (0.025 if shape == "triangle" else 0.03))
     steep = {"trapezoid": np.clip(3.0 * np.sin(phase), -1.0, 1.0), "sine": np.sin(phase)}
     clean = 60.0 * steep.get(shape, 2.0 / np.pi * np.arcsin(np.sin(phase)))
     for place in [*range(0, len(clean), 1 if (shape, cycles) == ("trapezoid", 1) else 7), len(clean) - 1]:
@@ -480,3 +482,92 @@ def test_columns_in_two_units_contradict_each_other_without_a_study(tmp_path: Pa
     write(tmp_path / "trace.csv", rows, "position [mm],height [µm]")
     columns = {"position": "position [mm]", "height": "height [µm]"}
     refused("in µm beside position in mm", swtstudy.read_trace, tmp_path / "trace.csv", columns=columns)
+
+
+def record_of(path: Path, *columns: Callable, samples: float, count: int = 400, noise: float = 0.0) -> Path:
+    """A record of loads over turns, at so many samples a cycle."""
+    turn = (np.arange(count) + 0.5) / samples
+    rows = np.stack([turn, *(of(turn) for of in columns)], axis=1)
+    rows[:, 1:] += noise * np.random.default_rng(5).normal(size=rows[:, 1:].shape)
+    names = ("time", "normal", "tangential", "bulk")[: rows.shape[1]]
+    np.savetxt(path, rows, "%.12g", ",", header=",".join(names), comments="")
+    return path
+
+
+def constant(turn: np.ndarray) -> np.ndarray:
+    return 500.0 + 0.0 * turn
+
+
+def sine(turn: np.ndarray) -> np.ndarray:
+    return 150.0 * np.sin(2.0 * np.pi * turn)
+
+
+def triangle(turn: np.ndarray) -> np.ndarray:
+    return 300.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * turn))
+
+
+def square(turn: np.ndarray) -> np.ndarray:
+    return np.where(np.mod(turn, 1.0) < 0.5, 150.0, -150.0)
+
+
+def held(turn: np.ndarray) -> np.ndarray:
+    return 150.0 * np.clip(2.0 * np.sin(2.0 * np.pi * turn), -1.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("load", "samples", "given", "words"),
+    [
+        (sine, 8, {}, r"8 samples a cycle: .* take 7\.3% off .*; harmonics = 1 takes nothing off"),
+        (sine, 8, {"harmonics": 1}, ""),
+        (sine, 40, {}, ""),
+        (triangle, 12, {}, r"12 samples a cycle: .* off .*; more samples are needed, or vertices"),
+        (triangle, 9.6, {}, r"at other phases in each.* off .*; more samples are needed, or vertices"),
+        (triangle, 1000, {}, ""),
+        (triangle, 200, {"harmonics": 3}, r"harmonics = 3 takes \S+% off the range of the tangential load"),
+        (triangle, 9.6, {"harmonics": 3}, r"harmonics = 3 takes \S+% off the range of the tangential load"),
+        (held, 200, {"harmonics": 5}, r"harmonics = 5 adds \S+% to the range of the tangential load"),
+        (square, 16, {}, ""),
+        (held, 20, {}, ""),
+    ],
+)
+def test_tips_of_a_load_that_are_lost_are_told(
+    load: Callable, samples: float, given: dict[str, int], words: str, tmp_path: Path
+) -> None:
+    path = record_of(tmp_path / "rig.csv", constant, load, samples=samples, count=int(40 * samples))
+    told = warned(read_signal, path, time="time", absolute=True, period=1.0, **given)[1]
+    assert len(told) == bool(words), told
+    assert all(re.search(words, each) for each in told)
+
+
+def test_noise_that_raises_the_tips_of_a_load_is_told(tmp_path: Path) -> None:
+    path = record_of(tmp_path / "rig.csv", constant, sine, samples=1000, count=1000, noise=3.0)
+    given = {"time": "time", "absolute": True, "period": 1.0}
+    told = warned(read_signal, path, **given)[1]
+    assert len(told) == 1
+    assert re.search(r"noise of 3\S* raises the tips of the tangential load by some 4\.\d%", told[0])
+    signals = [warned(read_signal, path, **given, **form)[0] for form in ({}, {"harmonics": 1})]
+    ends = [np.ptp(signal.loop.ends[1]) for signal in signals]
+    assert 1.03 < ends[0] / 300.0 < 1.08
+    assert ends[1] / 300.0 == pytest.approx(1.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("noise", [0.5, 3.0])
+def test_noise_does_not_take_a_bulk_stress_off_the_load_that_it_follows(noise: float, tmp_path: Path) -> None:
+    def pulled(turn: np.ndarray) -> np.ndarray:
+        return 40.0 + 0.25 * sine(turn)
+
+    given = {"time": "time", "absolute": True, "period": 1.0}
+    path = record_of(tmp_path / "rig.csv", constant, sine, pulled, samples=100, count=100, noise=noise)
+    signal = warned(read_signal, path, **given)[0]
+    normal, tangential, bulk = signal.loop.vertices.T
+    assert np.ptp(normal) == 0.0
+    np.testing.assert_allclose(
+        bulk - bulk.mean(), 0.25 * (tangential - tangential.mean()), rtol=0.05, atol=1e-9
+    )
+
+    def late(turn: np.ndarray) -> np.ndarray:
+        return pulled(turn - 0.2)
+
+    path = record_of(tmp_path / "late.csv", constant, sine, late, samples=100, count=100, noise=noise)
+    _, tangential, bulk = warned(read_signal, path, **given)[0].loop.vertices.T
+    assert np.abs(np.corrcoef(tangential, bulk)[0, 1]) < 0.5

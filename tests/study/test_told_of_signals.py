@@ -69,6 +69,8 @@ read(wave(100, 33.2)) » 1 cycle of 100 samples » 19998.5
 read(wave(100, 20) + [1.0, 0.0] * noise(100, 9.0, 2)) » 1 cycle of 100 samples » 20062.4742
 » the record repeats 5 times: recorded_cycles = 5?
 read(wave(100, 20, 3.0), recorded_cycles=1) » 1 cycle of 100 samples » 19955.8025
+» noise of 3.1 raises the tips of the tangential load by some 6.5%: more cycles, or harmonics = 50 if it is
+    smooth, average it out
 read(spoilt(wave(16, 16), (5, 1, 80.0)), recorded_cycles=1) » 1 cycle of 16 samples » 3280.0
 » tangential 135.433 in cycle 1, line 7 of the file, where the other samples suggest 51.21: a spike? despike =
     true takes it out
