@@ -16,7 +16,7 @@ from swtstudy.cli import terminal
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Report, literal, refused
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import duration, number_of, numbers_words, unit_words
 
@@ -181,9 +181,9 @@ def list_studies(context: click.Context, parameters: bool) -> None:
     """
     if parameters:
         formatter = context.make_formatter()
-        for title, names in terminal.by_section(PARAMETERS).items():
+        for title, names in terminal.by_section((*PARAMETERS, *CONTACT_AXES)).items():
             with formatter.section(title):
-                formatter.write_dl([(name, PARAMETERS[name].explained) for name in names])
+                formatter.write_dl([(name, AXES[name].explained) for name in names])
         with formatter.section("Quantities beside s"):
             quantities = [(name, f"{row.meaning}.") for name, row in NAMED.items()]
             formatter.write_dl([*quantities, (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])

@@ -362,7 +362,7 @@ class PhysicalContact:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(grid, distances[0], report)
         report.refuse()
-        warn_of_units(grid, self.moduli.young)
+        warn_of_units(grid, self.moduli.young, table="")
         return grid, grid.request(names, *distances)
 
     def optimise(
@@ -531,7 +531,9 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
 
 
 #: Keywords that ask for something; all others describe contacts.
-_ASKED = ("rtol", "quantities", DISTANCE, "constants")
+_ASKED = ("rtol", "quantities", DISTANCE, "constants", "blocks")
+#: Keywords that are no parameters.
+_KEYWORDS = ("units", "yield_strength", "findley_limit", "shear_constants", *_ASKED)
 
 
 @with_parameters(row for name, row in unit_rows.rows(unit_rows.Units()).items() if name != DISTANCE)
@@ -639,7 +641,9 @@ def physical(
     named = {unit_rows.NAMES_KEY: bodies, unit_rows.CARRIER_KEY: bulk_stress_body}
     named = {key: value for key, value in named.items() if value is not None}
     given = {**fixed, **named, unit_rows.SIMILAR_KEY: similar}
-    grid, found = read_contacts(given, axes, about, samples=samples)
+    grid, found = read_contacts(given, axes, about, samples=samples, keywords=_KEYWORDS)
     if grid is None or report:
-        raise StudyError([*report, *found])
+        # Keywords are a table in a study.
+        own = {"material": "shear_constants"} | {f"material.{name}": name for name in _KEYWORDS}
+        raise StudyError([*report, *(replace(each, key=own.get(each.key, each.key)) for each in found)])
     return PhysicalContact(replace(grid, sample_dim=dim, sample_labels=of_points))

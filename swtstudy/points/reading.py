@@ -32,7 +32,16 @@ from swtstudy.points.values import (
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, nearest, plain_number
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, Parameter
+from swtstudy.vocabulary.parameters import (
+    AXES,
+    CONTACT_AXES,
+    MANY_TURNS,
+    PAIRS,
+    PARAMETERS,
+    SYMBOLS,
+    Parameter,
+    spelled,
+)
 from swtstudy.vocabulary.quantities import ATTRIBUTES, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE
 
 #: Definitions of the user, by parameter and name.
@@ -137,9 +146,10 @@ def read_values(
     """Return the fixed values and axes that are sound one by one; see `read_grid`."""
     for name in (name for name in (*fixed, *axes) if name not in rows and name not in others):
         found, allowed = f"unknown parameter {literal(name)}", nearest(name, [*rows, *others])
-        if name in CONTACT_AXES:
+        own = name if name in CONTACT_AXES else SYMBOLS.get(spelled(name), ("",))[0]
+        if own in CONTACT_AXES and own not in rows:
             found = "a parameter of real contacts"
-            allowed = "this in a study with [units], or swtstudy.physical"
+            allowed = f"{'this' if own == name else own} in a study with [units], or swtstudy.physical"
         report.of(name, found, allowed)
     several = (fixed, "a fixed value"), (axes, "an axis"), (samples, "sampled")
     for (one, first), (other, second) in itertools.combinations(several, 2):

@@ -207,7 +207,8 @@ def _text_of(file: Path, source: str) -> str:
         found, allowed = reason_of(error), "a study file (TOML)"
         if not file.suffix:
             found, here = "no such file", f"{source}.toml"
-            of_paper = f", or a study of the paper: {nearest(source, shipped_studies())}"
+            likely = nearest(source, shipped_studies(), listed_by="swtstudy list")
+            of_paper = f", or a study of the paper: {likely}"
             allowed += f": {here} is there" if Path(here).exists() else of_paper
     except OSError as error:
         found, allowed = reason_of(error), _READABLE

@@ -34,7 +34,7 @@ from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes, labels_of
 from swtstudy.study.units.life import Block
-from swtstudy.study.units.material import read_given
+from swtstudy.study.units.material import PROPERTIES, read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, check_distances, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
 from swtstudy.study.writing import to_toml
@@ -229,6 +229,10 @@ class StudyReader:
                 allowed = "with [units] only: a life needs a real contact"
                 report("material", "constants without [units]", allowed)
             return None, fixed
+        properties = [name for name in fixed if name in PROPERTIES and name not in AXES]
+        for name in properties:
+            report(f"fixed.{name}", "a property of a material", "this under [material]")
+        fixed = {name: value for name, value in fixed.items() if name not in properties}
         # A modulus that is missing altogether is reported with the contacts: once.
         missing = [] if parts.sample else [name for name in OF_BODIES if name not in {*fixed, *axes}]
         told = {**dict.fromkeys(missing, 0.0), **fixed}

@@ -27,7 +27,7 @@ from swtstudy.study.units.material import KEYS
 from swtstudy.study.units.rows import Units, kinds_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
-from swtstudy.vocabulary.parameters import Parameter
+from swtstudy.vocabulary.parameters import AXES, Parameter
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")
@@ -222,6 +222,8 @@ class SampleReader:
             if name in KEYS:
                 found = f"{name}, a constant that cannot scatter"
                 allowed = f"constants that can: {_CAN_SCATTER}; or a parameter"
+            if name in AXES:
+                found, allowed = f"{name}, which has no range", "a fixed value or an axis"
             if name in self.rows:
                 found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
             self.report(f"sample.ranges.{name}", found, allowed)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from numbers import Integral, Real
 from typing import TypeGuard
 
-from swtstudy.vocabulary.parameters import SYMBOLS, spelled
+from swtstudy.vocabulary.parameters import OTHER_SYMBOLS, PARAMETERS, SYMBOLS, spelled
 
 
 @dataclass(frozen=True)
@@ -137,6 +137,10 @@ def literal(value: object, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+#: As many allowed names at most are all said beside the likely ones.
+_FEW = 10
+
+
 def more_like_it(count: int) -> str:
     """Say behind the first of some mistakes how many others there are.
 
@@ -192,8 +196,12 @@ def plain_number(value: object) -> float:
         return math.nan
 
 
-def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
-    """Say which names are allowed instead of an unknown one; the name that was probably meant comes first.
+def nearest(
+    name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS, listed_by: str = ""
+) -> str:
+    """Say which names are allowed instead of an unknown one: those that were probably meant come first.
+
+    Many names are not all said beside likely ones, nor where a command lists them.
 
     Examples
     --------
@@ -203,12 +211,20 @@ def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, st
     'did you mean friction (μ)? known: friction, phase'
     >>> nearest("x", ["friction", "phase"])
     'one of friction, phase'
+    >>> nearest("figre", [f"figure{n}" for n in range(10)], listed_by="swtstudy list")
+    'did you mean figure9, figure8 or figure7? list all: swtstudy list'
     """
     known = list(known)
-    close = meant(name, known, symbols)
+    close = _alike(name, known, symbols)
     named, letter = symbols.get(spelled(name), ("", ""))
-    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? known:" if close else "one of"
-    return f"{hint} {', '.join(known)}"
+    words = [f"{each} ({letter})" if each == named else each for each in close]
+    hint = f"did you mean {_either(words)}?" if close else ""
+    if PARAMETERS.keys() & {*known}:
+        listed_by = listed_by or "swtstudy list --parameters"
+    if len(known) > _FEW and (close or listed_by):
+        place = f"list all: {listed_by}" if listed_by else ""
+        return " ".join(filter(None, (hint or f"one of {len(known)} names,", place)))
+    return f"{hint} known: {', '.join(known)}" if close else f"one of {', '.join(known)}"
 
 
 def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
@@ -219,12 +235,33 @@ def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]
     >>> meant("SWTT", ["status", "SWT"]), meant("Start_Up", ["start-up", "running"])
     ('SWT', 'start-up')
     """
-    alike = {_plain_letters(each): each for each in known}
+    return next(iter(_alike(name, known, symbols)), None)
+
+
+def _alike(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]]) -> list[str]:
+    """The known names that are probably meant, at most three: by symbol, by spelling, or longer by words.
+
+    Examples
+    --------
+    >>> _alike("P", ["normal_force", "phase"], SYMBOLS), _alike("flat", ["flat_radius", "phase"], {})
+    (['normal_force'], ['flat_radius'])
+    """
+    letters = {_plain_letters(each): each for each in known}
+    if symbols is SYMBOLS and (others := [each for each in OTHER_SYMBOLS.get(name, ()) if each in letters]):
+        return others
     named, _ = symbols.get(spelled(name), ("", ""))
-    if named in alike.values():
-        return named
-    close = difflib.get_close_matches(_plain_letters(name), alike, n=1, cutoff=0.5)
-    return alike[close[0]] if close else None
+    if named in letters.values():
+        return [named]
+    typed = _plain_letters(name)
+    close = difflib.get_close_matches(typed, letters, n=1, cutoff=0.6)
+    longer = [each for each in letters if len(typed) > 3 and f"_{typed}_" in f"_{each}_"]
+    close += [*longer, *difflib.get_close_matches(typed, letters, n=3, cutoff=0.8)]
+    return [letters[each] for each in dict.fromkeys(close)][:3]
+
+
+def _either(words: Sequence[str]) -> str:
+    """Words with commas, and "or" before the last."""
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _plain_letters(name: str) -> str:

@@ -283,3 +283,10 @@ SYMBOLS: dict[str, tuple[str, str]] = {
 #: And the names of values, with the words that others have for them.
 SYMBOLS |= {word.lower(): ("paraboloid", word) for word in ("sphere", "ball", "Hertz")}
 SYMBOLS |= {"fs": ("fatemi_socie", "FS")} | {word: ("cycles", "N") for word in ("life", "lifetime", "nf")}
+#: Parameters by a symbol of others, in either case of letters; the first ones have units.
+OTHER_SYMBOLS: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("P", "P0", "F", "N", "Fn", "W"), ("normal_force", "normal_force_amplitude")),
+    **dict.fromkeys(("Q", "Q0", "T", "Ft"), ("tangential_force_amplitude",)),
+    **dict.fromkeys(("u", "U", "d", "stroke"), ("tangential_amplitude",)),
+    **dict.fromkeys(("f", "cof", "COF"), ("friction", "profile")),
+}

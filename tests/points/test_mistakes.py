@@ -170,6 +170,17 @@ solve(profile=CAP, normal_amplitude=3.0)
     is as large as that at the depth 2
 solve(radius=50)
 » radius: found a parameter of real contacts; allowed: this in a study with [units], or swtstudy.physical
+solve(E=7e4, P=0.5, Q=1, u=1, f=0.5, sigma=1)
+» E: found a parameter of real contacts; allowed: young_modulus in a study with [units], or swtstudy.physical
+» P: found unknown parameter 'P'; allowed: did you mean normal_force_amplitude? list all: swtstudy list
+    --parameters
+» Q: found unknown parameter 'Q'; allowed: did you mean tangential_force_amplitude? list all: swtstudy list
+    --parameters
+» u: found unknown parameter 'u'; allowed: did you mean tangential_amplitude? list all: swtstudy list
+    --parameters
+» f: found unknown parameter 'f'; allowed: did you mean friction or profile (f)? list all: swtstudy list
+    --parameters
+» sigma: found unknown parameter 'sigma'; allowed: one of 26 names, list all: swtstudy list --parameters
 solve(critical_distance=-1)
 » critical_distance: found -1 (out of range); allowed: a number in (0, 10]
 solve(critical_distance=[0.1, 0.1, 11])
@@ -189,11 +200,8 @@ solve(friction=listed("0,1", "0.2"), phase=listed(1, 2))
 » friction: found '0,1' (not a number or an expression of numbers, pi, sqrt(), + - * / ( )) at [0]; allowed: a
     number in [0, 10]
 solve(friction=listed(0.1, 0.2, 0.3), phase=listed(1, 2), tangential=listed(1, 2))
-» tangential: found unknown parameter 'tangential'; allowed: did you mean tangential_amplitude? known:
-    poisson_ratio, friction, normal_amplitude, normal_force_amplitude, frequency_ratio, tangential_amplitude,
-    tangential_force_amplitude, phase, load, profile, flat_radius, flat_half_width, waviness_amplitude,
-    wavelength, exponent, bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase, bulk_strain_share,
-    stick_zone_shift, criterion, walker_exponent, normal_sensitivity, rtol, quantities, critical_distance
+» tangential: found unknown parameter 'tangential'; allowed: did you mean tangential_amplitude or
+    tangential_force_amplitude? list all: swtstudy list --parameters
 » friction, phase, tangential: found lengths or coordinates that differ along test; allowed: the same ones
 solve(friction=listed(0.1, 0.2, labels=[1, 2]), phase=listed(1, 2, labels=[1, 3]))
 » friction, phase: found lengths or coordinates that differ along test; allowed: the same ones

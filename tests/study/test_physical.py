@@ -169,8 +169,6 @@ def test_there_and_back(parameters):
 #: Keywords of contacts that are no parameters of their points.
 ABOUT = {"units", "bulk_stress_body", "bodies", "body", "similar"}
 ABOUT |= {"yield_strength", "findley_limit", "shear_constants"}
-#: Sizes of contacts, which points do not have.
-SIZES = {"young_modulus", "radius", "depth", "normal_force", "bulk_stress_ratio", "contact_length"}
 
 
 def test_every_parameter_is_known_of_a_contact():
@@ -179,7 +177,7 @@ def test_every_parameter_is_known_of_a_contact():
     own = {*inspect.signature(physical).parameters} - ABOUT
     assert own <= {*dir(contact)}
     listed, *_ = call("list", "--parameters").output.partition("Quantities")
-    assert own == {*re.findall(r"^  (\w+)  ", listed, re.MULTILINE)} - {"bulk_strain_share"} | SIZES
+    assert own | {"body", "bulk_strain_share"} == {*re.findall(r"^  (\w+)  ", listed, re.MULTILINE)}
     for name in ("normal_force_amplitude", "flat_radius", "exponent", "bulk_stress_ratio"):
         assert getattr(contact, name) is None
     with pytest.raises(AttributeError, match="a contact has no 'colour'"):
@@ -307,6 +305,16 @@ dict(radius=5e-324) » radius: found 5e-324 (out of range); allowed: a positive 
 dict(normal_force=1e308) » normal_force: found 1e+308 (out of range); allowed: a positive force
 dict(friction=5e-324) » tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, frict
 dict(E=1) » E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?
+dict(E=1, P=1, F=1, Q=1, u=1, f=1)
+» E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?
+» P: found unknown parameter 'P'; allowed: did you mean normal_force or
+» F: found unknown parameter 'F'; allowed: did you mean normal_force or
+» Q: found unknown parameter 'Q'; allowed: did you mean tangential_force
+» u: found unknown parameter 'u'; allowed: did you mean tangential_amplitude
+» f: found unknown parameter 'f'; allowed: did you mean friction or profile
+dict(yield_strenght=300)
+» yield_strenght: found unknown parameter 'yield_strenght'; allowed: did you mean yield_strength?
+dict(criterion="fatemi_socie", normal_sensitivity=1) » yield_strength: found nothing; allowed: a stress
 dict(psi=1) » psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?
 dict(youngs_modulus=1, young_modulus=None, radius=None)
 » youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod

@@ -265,7 +265,7 @@ def test_a_study_of_one_point_shows_itself_without_markup():
 def test_a_name_that_is_no_study_is_told_of_those_of_the_paper(tmp_path):
     (mistake,) = refused("", Study.from_toml, "figure33").mistakes
     assert (mistake.source, mistake.key, mistake.found) == ("figure33", "", "no such file")
-    start = "a study file (TOML), or a study of the paper: did you mean figure3? known: "
+    start = "a study file (TOML), or a study of the paper: did you mean figure3, figure8 or "
     assert mistake.allowed.startswith(start)
     (tmp_path / "mine.toml").write_text(MINIMAL)
     (mistake,) = refused("", Study.from_toml, tmp_path / "mine").mistakes

@@ -212,7 +212,7 @@ def critical_distance(units: Units, intensity: float, limit: float, load_ratio: 
     return length
 
 
-def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
+def warn_of_units(of: ContactDetails, young: Sequence[float], table: str = "material.") -> None:
     """Warn of constants that no metal has, alone or beside the modulus of its body: a unit is another one."""
     given = {
         "strength": [each.strength for each in of.materials],
@@ -224,7 +224,7 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
             if not weakest <= value / modulus <= strongest:
-                words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
+                words = f"{table}{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
                 words += f", of metals {weakest:g} to {strongest:g}"
                 warnings.warn(f"{words}: are both in {stress}?", stacklevel=2)
     least, largest = USUAL["modulus_ratio"]
@@ -232,9 +232,9 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
         ratio, strain = each.young_modulus / own, each.strength / own
         # With an unusual strength the body's modulus is the odd one, of which a warning has told.
         if weakest <= strain <= strongest and not least <= ratio <= largest:
-            words = f"material.young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
+            words = f"{table}young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
             warnings.warn(f"{words}: are both of one material, and in {stress}?", stacklevel=2)
     for name, (least, largest) in USUAL["constants"].items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):
             if not least <= value <= largest:
-                warnings.warn(f"material.{name} {value:g}, of metals {least:g} to {largest:g}", stacklevel=2)
+                warnings.warn(f"{table}{name} {value:g}, of metals {least:g} to {largest:g}", stacklevel=2)

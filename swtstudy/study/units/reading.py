@@ -63,8 +63,12 @@ def read_contacts(
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
+    keywords: Sequence[str] = (),
 ) -> tuple[PhysicalGrid | None, Report]:
-    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`.
+
+    An unknown parameter may be one of other keywords, misspelt.
+    """
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     raw, tables = everything.get("profile", PARAMETERS["profile"].default), known.get("profile", {})
@@ -75,7 +79,7 @@ def read_contacts(
     given, single = _read_bodies(fixed, given, own, report)
     for name in (name for name in units.OF_ALL if name in axes):
         report.of(name, "an axis", "one for all points, under [fixed]")
-    others = (DISTANCE, *units.OF_ALL, *given.pairs)
+    others = (DISTANCE, *units.OF_ALL, *given.pairs, *keywords)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
