@@ -30,6 +30,8 @@ from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMET
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, DISTANCE, FAILED, NOTHING, STATES, has_units
 from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
 
+#: Sizes of contacts at rest.
+AT_REST = ("normal_force", "contact_radius", "peak_pressure")
 #: Lives over more critical distances are a range.
 _DISTANCES = 3
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -183,6 +185,7 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     given = read_contact(dataset.attrs[CONTACT])
     lives = given.materials or given.shear_materials
     several: dict[str, Iterable[str]] = {
+        "at rest": [rest_words(dataset)],
         "units": [", ".join(filter(None, vars(given.units).values()))],
         "bulk stress": [_carrier(dataset, given)],
         "material": map(_constants, dict.fromkeys(given.materials)),
@@ -194,6 +197,16 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         "sequence": [sequence_words(dataset, given.blocks)],
     }
     yield from ((label, words) for label, lines in several.items() for words in lines if words)
+
+
+def rest_words(dataset: xr.Dataset) -> str:
+    """Sizes of real contacts at rest, which tell a wrong unit at a glance; empty without units."""
+    said = []
+    for name in AT_REST if has_units(dataset) else ():
+        if name in dataset:
+            ends = numbers_words([float(dataset[name].min()), float(dataset[name].max())])
+            said.append(f"{name} {' to '.join(dict.fromkeys(ends))}{unit_of(dataset[name])}")
+    return ", ".join(said)
 
 
 def _carrier(dataset: xr.Dataset, given: ContactDetails) -> str:

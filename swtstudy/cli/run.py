@@ -165,7 +165,7 @@ def _written(target: Path) -> int | None:
 
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
-    from swtstudy.archive.describe import failures, outcome, relative_errors
+    from swtstudy.archive.describe import failures, outcome, relative_errors, rest_words
 
     relative, worst = relative_errors(dataset), "s finite and positive at none of them"
     if relative.size:
@@ -173,6 +173,8 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     click.echo(f"{target}: {number_of(dataset.s.size, 'point')} {effort}, {worst}")
     for line in outcome(dataset):
         terminal.say(line, 2)
+    if at_rest := rest_words(dataset):
+        terminal.say(f"Contact at rest: {at_rest}.", 2)
     failed = [*failures(dataset)]
     for where, why in failed[:_NAMED]:
         click.echo(f"failed: {where}: {why}", err=True)

@@ -138,7 +138,7 @@ def literal(value: object, longest: int = 60) -> str:
 
 
 #: As many allowed names at most are all said beside the likely ones.
-_FEW = 10
+_FEW = 12
 
 
 def more_like_it(count: int) -> str:

@@ -9,6 +9,7 @@ from real import CONTACT, CRITERIA
 from words import number
 
 import swtstudy
+from swtstudy.archive.describe import INDENT
 
 SOFT = CONTACT.replace("yield_strength = 350", "yield_strength = 150")
 FORCES = "normal_force = 200\ntangential_force_amplitude = {}\n"
@@ -23,6 +24,9 @@ def told(tmp_path: Path, text: str) -> list[str]:
     first, *lines = done.stdout.splitlines()
     assert "point" in first
     about = call("info", tmp_path / "mine.nc").stdout.splitlines()
+    for sizes in (line[INDENT:] for line in about if line.startswith("  at rest")):
+        assert lines.pop() == f"Contact at rest: {sizes}."
+        assert f"contact at rest: {sizes}" in " ".join(call("validate", file).stdout.split())
     assert [line.strip() for line in about[1 : 1 + len(lines)]] == lines
     return lines
 

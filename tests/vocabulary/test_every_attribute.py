@@ -76,4 +76,5 @@ def test_all_attributes_are_these(kept: Kept, tmp_path: Path, name: str) -> None
 def test_what_is_not_always_there_is_not_minimised() -> None:
     with pytest.raises(ValueError, match="minimise: ") as error:
         swtstudy.optimise({"friction": (0.1, 0.5)}, "radius_ratio")
-    assert str(error.value).endswith("did you mean force_ratio?")
+    known = "s, s_surface, critical_x, critical_angle"
+    assert str(error.value).endswith(f"known: {known}, {', '.join(EVERY)}")
