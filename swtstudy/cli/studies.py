@@ -120,6 +120,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
     """Describe a run in labels and words, with its time from a few points that are solved."""
     from swtstudy.archive.run import Work, estimate
+    from swtstudy.points.solve import foreseen_lines
 
     work = Work(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
@@ -128,6 +129,7 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, st
     yield "prescribed", grid.control.name
     if at_rest := rest_words(grid):
         yield "contact at rest", at_rest
+    yield from (("validity", line) for line in foreseen_lines(grid))
     yield "archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"
     yield "points", f"{grid.size}{panels}"
     if study.asked.items:

@@ -24,7 +24,7 @@ from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
 from swtstudy.study.units.material import warn_of_units
-from swtstudy.study.units.reading import check_distances, completed, read_contacts
+from swtstudy.study.units.reading import check_distances, completed, doubts_of_units, read_contacts
 from swtstudy.study.units.results import COMMENTS, attributes, derived
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, without_life
@@ -332,7 +332,7 @@ class PhysicalContact:
             A ValueError with every mistake.
         """
         grid, asked = self._request(rtol, critical_distance, constants, yield_strength, quantities, blocks)
-        for words in doubts(grid):
+        for words in (*doubts(grid), *doubts_of_units(grid)):
             warnings.warn(words, stacklevel=2)
         return solve_grid(grid, float(rtol), asked)
 

@@ -246,7 +246,8 @@ def hint_at_degrees(raw: object) -> str:
     ('for degrees write "90 deg"', '')
     """
     said = isinstance(raw, str) and any(word in raw for word in ("pi", "π", "rad", *DEGREES))
-    return "" if said else f'for degrees write "{raw} deg"'
+    number = f"{raw:g}" if isinstance(raw, float) else raw
+    return "" if said else f'for degrees write "{number} deg"'
 
 
 def _read_ratio(exact: Fraction | float, largest: int) -> Fraction:

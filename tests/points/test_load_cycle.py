@@ -1,5 +1,6 @@
 """A load cycle is the common period 2πq/ω1 of both oscillations, also where the normal load rests."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +53,9 @@ def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: fl
     loads |= {"normal_force_amplitude": np.multiply(RESTING, 200.0), "bulk_stress_mean": bulk}
     contact = swtstudy.physical(**RIG, **loads)
     asked = {"quantities": ["dissipation"], "constants": ALUMINIUM}
-    found = contact.solve(1e-2, **asked)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # such small forces are doubted
+        found = contact.solve(1e-2, **asked)
     for name in ("dissipation", "cycles"):
         _agree(found[name].transpose("normal_force_amplitude", ...))
     counted = found.counted_number.transpose("normal_force_amplitude", ...).isel(counted_place=0)

@@ -237,7 +237,7 @@ def test_a_list_of_contacts():
 def test_a_list_of_contacts_has_bodies_and_no_sum_of_loads():
     forces = {
         "normal_force": [100.0, 200.0],
-        "tangential_force_amplitude": [1.0, 1.0],
+        "tangential_force_amplitude": [2.0, 2.0],
         "poisson_ratio": [0.2, 0.4],
     }
     arrays = {name: xr.DataArray(values, dims="test") for name, values in forces.items()}

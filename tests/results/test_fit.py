@@ -9,7 +9,7 @@ import xarray as xr
 from click.testing import CliRunner
 from kept import told
 from real import ALLOY, ALUMINIUM, SPHERE
-from told import refused, sayings
+from told import refused, sayings, warned
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, physical
@@ -495,9 +495,7 @@ RANGES = ("threshold_stress_intensity_range = 110", "fatigue_limit_range = 280")
 
 def test_the_moduli_of_both_bodies_are_looked_at():
     text = with_material().replace("young_modulus = 73.1e3", "young_modulus = [72, 73.1]")
-    with pytest.warns(UserWarning, match="over young_modulus") as warned:
-        Study.from_text(text)
-    said = " ".join(str(each.message) for each in warned)
+    said = " ".join(warned(Study.from_text, text)[1])
     assert "over young_modulus 72 is 12.9" in said
     assert "over young_modulus 73.1 is 12.7" in said
 

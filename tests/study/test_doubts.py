@@ -1,12 +1,14 @@
 """What is said of studies that are sound, and in which a unit is probably another one."""
 
 import logging
+from pathlib import Path
 
 import pytest
 import real
-from told import sayings, warned
+from command import call
+from told import RIG, sayings, warned
 
-from swtstudy import Study
+from swtstudy import Study, physical
 
 LOADS = "normal_force = 200\ntangential_force_amplitude = 60\n"
 CONTACT = f"[fixed]\nyoung_modulus = 73.1e3\npoisson_ratio = 0.33\nradius = 50\nfriction = 0.5\n{LOADS}"
@@ -99,6 +101,13 @@ cap(0.1, 1.5, 0.05) + "smoothing = 0.0001"
 cap(0.1, 1.5, 0.05) + "smoothing = 0.001"
 » s: profile cap: its smoothing is 0.039 of its rise within the contact at the mean load, so that the largest
     local values, such as s, may be off by more than that share; a mean over a critical_distance is nearer
+CONTACT.replace("= 200", "= 2e5")
+» s: a mean pressure of 1976 MPa is 0.048 of E*; metals yield below 0.03: is the force or the modulus
+    in another unit?
+CONTACT.replace("= 200", "= 2e4") + "profile = 'cylinder'"
+» s: a mean pressure of 1795 MPa is 0.044 of E*; metals yield below 0.03: is a contact_length missing, or the
+    force per length in another unit?
+CONTACT.replace("= 200", "= 2e4") + "profile = 'cylinder'\ncontact_length = 10"
 cap(0.1, 1.5, 0.06)
 » s: profile cap: a contact radius of 0.4812 mm over R is 0.125, p0 over E* is 0.107: are heights and
     positions in one unit?
@@ -108,6 +117,25 @@ cap(0.1, 1.5, 0.06)
 @pytest.mark.parametrize(("text", "lines"), DOUBTS)
 def test_what_is_doubted(text: str, lines: list[str]) -> None:
     assert told(real.UNITS + eval(text)) == lines
+
+
+def test_a_contact_of_python_is_doubted_as_one_of_a_study() -> None:
+    contact = physical(**RIG | {"friction": 5.0}, normal_force=2e5, tangential_force_amplitude=2e5)
+    _, lines = warned(contact.solve, 1e-1)
+    assert [line.partition(" of ")[0] for line in lines] == [
+        "friction 5: metals have some 0.1 to 1.5",
+        "a mean pressure",
+    ]
+
+
+def test_a_plan_says_which_limits_are_exceeded_already_as_validate_does(tmp_path: Path) -> None:
+    file = tmp_path / "big.toml"
+    file.write_text(f'title = "t"\n{real.UNITS}{CONTACT.replace("= 60", "= 150")}', encoding="utf-8")
+    planned = " ".join(call("plan", file, "--results", tmp_path).stdout.split())
+    said = call("validate", file).stderr.splitlines()
+    lines = [line.removeprefix("validity: ") for line in said if line.startswith("validity: ")]
+    assert lines
+    assert all(line in planned for line in lines)
 
 
 @pytest.mark.parametrize(("ratio", "words"), [("", UNSAID), ("load_ratio = -1\n", "the load ratio -1")])

@@ -49,6 +49,8 @@ MOST_CONTACTS = 300_000
 _SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
 #: Pressure over E* that no metal sustains.
 LARGEST_PRESSURE = 0.1
+#: Mean pressure over E* at which the contact of any metal is plastic.
+LARGEST_MEAN_PRESSURE = 0.04
 #: Friction of no metal, a factor of a measured load that is probably a load itself, and a force over the
 #: normal load that is probably meant as a share of it. How near to the mean load deviations from it are on
 #: average that are probably the load itself.
@@ -356,6 +358,13 @@ def doubts_of_units(grid: PhysicalGrid, shown: Collection[str] = ()) -> Iterator
             face = " beside its flat face" * (contact.flat > 0.0)
             found = f"radius {radius:g}{unit} is smaller than the contact{face} ({curved:.3g}{unit})"
             lines.setdefault("radius", f"{found}: is the radius in another unit, such as metres?")
+        elif (share := contact.mean_pressure / contact.moduli.normal) > LARGEST_MEAN_PRESSURE:
+            size = f"{contact.mean_pressure:.4g}{unit_words(grid.labels.stress)}"
+            found = f"a mean pressure of {size} is {share:.2g} of E*; metals yield below 0.03"
+            doubt = "is the force or the modulus in another unit?"
+            if contact.plane and contact.contact_length is None:
+                doubt = "is a contact_length missing, or the force per length in another unit?"
+            lines.setdefault("pressure", f"{found}: {doubt}")
     yield from lines.values()
 
 
