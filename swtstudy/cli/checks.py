@@ -243,4 +243,6 @@ def history(
             here = {each: at[each].item() for each in ("id", *"xyz") if each in at.coords}
             places = [f"{n} = {v if n == 'id' else number_words(v)}" for n, v in here.items()]
             terminal.say(f"{words} at {', '.join(places) or 'the only point'}")
+        if line := found[lives].attrs.get("validity") if lives in found else None:
+            terminal.say(f"{line}.")
     click.echo(str(target))

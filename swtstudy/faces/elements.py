@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from swtstudy.points.validity import extrapolated
 from swtstudy.points.values import read_exact
 from swtstudy.results.history import TINY, criterion_of_history, longest_chord, swt_of_history
 from swtstudy.study.columns import UserTable, read_table, unknown_names, wrong_unit
@@ -135,9 +136,11 @@ def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
             raise refused(place, f"{' and '.join(twice)}, each {component}", "one of them", table.source)
     if {*own.values()} not in ({*COMPONENTS}, {*COMPONENTS} - {*ACROSS}):
         if order is None:
+            lacking = [component for component in COMPONENTS if component not in own.values()]
+            words = f"no {' or '.join(lacking)} among " if own else ""
             allowed = f"columns {_HEADERS}; of plane elements without the two across; with other headers an "
             allowed += f"order of six columns, {' or '.join(ORDERS)}"
-            raise refused(place, ", ".join(table.headers), allowed, table.source)
+            raise refused(place, words + ", ".join(table.headers), allowed, table.source)
         if len(names) != len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
             raise refused(place, ", ".join(names), allowed, table.source)
@@ -194,7 +197,8 @@ def evaluate_history(
     xarray.Dataset
         Over point: ``SWT``, ``FS`` and ``findley_stress`` as far as their properties are given, each with the
         unit normal of its plane (``SWT_normal`` and so on); ``cycles`` and ``FS_cycles``, load cycles to a
-        crack by the cycles that rainflow closes on that plane; ``findley_usage``.
+        crack by the cycles that rainflow closes on that plane, with the attribute validity where they are
+        beyond the range of their constants; ``findley_usage``.
 
     Raises
     ------
@@ -219,8 +223,9 @@ def evaluate_history(
     def add_lives(name: str, constants: Any, of: str, criterion: str, **parameters: float) -> None:
         counted = cycle_shares(stress, found[f"{of}_normal"].values, criterion, poisson, **parameters)
         one, pairs = np.zeros((1, 1)), zip(found[of].values, counted, strict=True)
-        lives = [float(constants.rounds(value, one + shares, one + 1.0)) for value, shares in pairs]
-        found[name] = "point", np.array(lives)
+        lives = np.array([float(constants.rounds(value, one + shares, one + 1.0)) for value, shares in pairs])
+        _, beyond = extrapolated(name, lives[:, np.newaxis])
+        found[name] = "point", lives, {"validity": beyond} if beyond else None
 
     add("SWT", *swt_of_history(stress, poisson, young, gamma), unit)
     if details.materials:
@@ -230,7 +235,7 @@ def evaluate_history(
     value, normal = criterion_of_history(stress, FINDLEY, sensitivity)
     found["findley_stress"], found["findley_normal"] = ("point", value, unit), (("point", "axis"), normal)
     if details.findley_limits:
-        found["findley_usage"] = found.findley_stress / details.findley_limits[body - 1]
+        found["findley_usage"] = "point", value / details.findley_limits[body - 1], {"units": "1"}
     if details.yield_strengths:
         kappa = sensitivity / details.yield_strengths[body - 1]
         value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)

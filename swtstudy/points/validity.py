@@ -250,16 +250,31 @@ def _lives(dataset: xr.Dataset) -> Iterator[Finding]:
             continue
         # A point may have several values, such as the nonlocal ones.
         lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
-        out = _beyond(lives)
-        if out.any():
-            where = _where(np.asarray(out.any(axis=-1)))
+        where, line = extrapolated(name, lives)
+        if line:
             beyond.setdefault(where, []).append(name)
-            ends = dict.fromkeys(numbers_words((lives[out].min(), lives[out].max()), 3))
-            found = f"{where}: {' to '.join(ends)}"
-            lines.append(f"{name} extrapolated{found}, while the constants are known for {_KNOWN}")
+            lines.append(line)
     places = (f"{', '.join(names)} extrapolated{where}" for where, names in beyond.items())
     short = f"{' and '.join(places)} (beyond {_KNOWN})"
     yield from ((short * (k == 0), line) for k, line in enumerate(lines))
+
+
+def extrapolated(name: str, lives: FloatArray) -> tuple[str, str]:
+    """Say at how many points a life is beyond the range of its constants, and how long it is there.
+
+    Parameters
+    ----------
+    name
+        Name of the life.
+    lives
+        Shape (..., n), n lives of each point.
+    """
+    out = _beyond(lives)
+    if not out.any():
+        return "", ""
+    where = _where(np.asarray(out.any(axis=-1)))
+    ends = " to ".join(dict.fromkeys(numbers_words((lives[out].min(), lives[out].max()), 3)))
+    return where, f"{name} extrapolated{where}: {ends}, while the constants are known for {_KNOWN}"
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:

@@ -154,7 +154,8 @@ def test_plane_elements_have_no_shear_across(tmp_path: Path, names: str) -> None
         found = read_history(file)
     assert found.stress.values.tolist() == [[[1, 2, 3, 0, 0, 4], [5, 6, 7, 0, 0, 8]]]
     file.write_text(f"id,step,{names.rpartition(',')[0]}\na,0,1,2,3\n")
-    refused("of plane elements without the two across", read_history, file)
+    words = "found no yz or xz or xy among id, step, .*; allowed: .* of plane elements without the two across"
+    refused(words, read_history, file)
 
 
 def test_the_command_names_files_of_another_kind(tmp_path: Path) -> None:
@@ -362,3 +363,18 @@ def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shif
         StudyError, match=rf"found other steps at the point \(1.0\d+1, 0.0, 0.0\) .*; {words}"
     ):
         read_history(tmp_path / "moves.csv")
+
+
+def test_lives_beyond_the_range_of_the_constants_are_told(tmp_path: Path) -> None:
+    """In the words of a run, as an attribute and by the command."""
+    stress = np.zeros((3, 2, 6))
+    stress[:, 1, 0] = 0.1, 700.0, 0.0
+    write(tmp_path / "nodes.csv", stress)
+    found = evaluate_history(tmp_path / "nodes.csv", study(tmp_path))
+    words = found.cycles.attrs["validity"]
+    assert words.startswith("cycles extrapolated at 1 of 3 points: ")
+    assert words.endswith(", while the constants are known for 100 to 10⁷")
+    done = call("history", study(tmp_path), tmp_path / "nodes.csv")
+    assert f"{words}." in " ".join(done.stdout.split())
+    write(tmp_path / "nodes.csv", stress[1:])
+    assert "validity" not in evaluate_history(tmp_path / "nodes.csv", study(tmp_path)).cycles.attrs

@@ -44,7 +44,7 @@ def test_contact_radius_over_r(rig):
     np.testing.assert_allclose(rig.radius_ratio, radius / 50.0, rtol=1e-9)
     # Of a cycle the largest; a table has the R of the paraboloid that is as wide and as deep.
     own = OWN
-    more = physical(**own, normal_force=200.0, normal_force_amplitude=150.0, tangential_force_amplitude=1.0)
+    more = physical(**own, normal_force=200.0, normal_force_amplitude=150.0, tangential_force_amplitude=9.0)
     expected = (0.75 * 350.0 * 50.0 / E_STAR) ** (1 / 3) / 50.0
     np.testing.assert_allclose(more.solve(1e-2).radius_ratio, expected, rtol=1e-9)
     cap = np.linspace(0.0, 3.0, 40)
@@ -57,8 +57,10 @@ def test_contact_radius_over_r(rig):
     np.testing.assert_allclose(pad.radius_ratio, (float(pad.contact_radius) - 6.5) / 50.0, rtol=1e-6)
     # Heights in µm beside radii in mm.
     wrong = swtstudy.TabulatedProfile("cap", cap, 10.0 * cap**2)
-    own = own | {"radius": None, "profile": wrong, "normal_force": 200.0, "tangential_force_amplitude": 1.0}
-    assert "contact too large for half-spaces" in physical(**own).solve(1e-2).swt.validity()[0]
+    own = own | {"radius": None, "profile": wrong, "normal_force": 200.0, "tangential_force_amplitude": 9.0}
+    with pytest.warns(UserWarning, match="are heights and positions in one unit"):
+        dataset = physical(**own).solve(1e-2)
+    assert "contact too large for half-spaces" in dataset.swt.validity()[0]
 
 
 def test_slide_over_the_contact_radius(rig):
