@@ -28,7 +28,14 @@ from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE
 from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS, REPETITIONS
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, DISTANCE, FAILED, NOTHING, STATES, has_units
-from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
+from swtstudy.vocabulary.wording import (
+    coordinate_words,
+    listed,
+    number_of,
+    number_words,
+    numbers_words,
+    with_rad,
+)
 
 #: Sizes of contacts at rest.
 AT_REST = ("normal_force", "contact_radius", "peak_pressure")
@@ -248,11 +255,14 @@ def _counted_words(dataset: xr.Dataset) -> str:
 
 
 def _words(value: xr.DataArray) -> str:
-    return coordinate_words(str(value.name), value.item(), value.attrs)
+    return with_rad(coordinate_words(str(value.name), value.item(), value.attrs), value.attrs)
 
 
 def _axis_words(axis: xr.DataArray) -> str:
-    return listed([_words(each) for each in axis], _LISTED) if axis.ndim else _words(axis)
+    words = [_words(each) for each in (axis if axis.ndim else [axis])]
+    if words[-1].endswith(" rad"):  # once, behind the last
+        words[:-1] = [each.removesuffix(" rad") for each in words[:-1]]
+    return listed(words, _LISTED)
 
 
 def _range_words(axis: xr.DataArray) -> str:

@@ -15,7 +15,7 @@ from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.mistakes import plain
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.quantities import COMPUTED, ZONES, has_units, require
-from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, with_rad
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -319,7 +319,7 @@ def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -
         names = dataset.indexes[dim].names if dim in dataset.indexes else ()
         for name in map(str, names):
             value: Any = plain(dataset[name].values[number])
-            named = coordinate_words(name, value, dataset[name].attrs)
+            named = with_rad(coordinate_words(name, value, dataset[name].attrs), dataset[name].attrs)
             words.append(f"{name} = {named}{unit_of(dataset[name])}")
         if not names:
             words.append(f"{dim} = {number}")

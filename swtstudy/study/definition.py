@@ -26,7 +26,7 @@ from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, Request
-from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
+from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words, with_rad
 
 #: How many values of an axis are listed one by one: a cell of a table in a notebook.
 _LISTED = 6
@@ -103,7 +103,8 @@ class Study:
             kind: str, name: str, values: tuple[Value, ...], place: str = ""
         ) -> tuple[str, str, str, str]:
             row, role = grid.row(name), roles.get(place)
-            words = listed([*map(plain_words, values)], _LISTED) + unit_words(row.units)
+            several = [with_rad(plain_words(value), {"units": row.units}) for value in values]
+            words = listed(several, _LISTED) + unit_words(row.units)
             return kind, name, words, row.described + (f"; figure: {role}" if role else "")
 
         rows = [row_of("axis", name, values, name) for name, values in grid.axes.items()]

@@ -222,6 +222,18 @@ def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any
     return str(attributes["flag_meanings"]).split()[flags.index(int(value))].replace("_", " ")
 
 
+def with_rad(words: str, attributes: Mapping[Any, Any]) -> str:
+    """The words of a value with the unit of an angle, unless they are a multiple of π.
+
+    Examples
+    --------
+    >>> [with_rad(words, {"units": "rad"}) for words in ("1.57", "π/2", "0")], with_rad("1.57", {})
+    (['1.57 rad', 'π/2', '0'], '1.57')
+    """
+    plain = attributes.get("units") == "rad" and words != "0" and "π" not in words
+    return f"{words} rad" if plain else words
+
+
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
     """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
 

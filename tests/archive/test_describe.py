@@ -136,7 +136,7 @@ several, lacking("rtol")(several)
 several, lacking("runs", "status", "critical_x")(several)
 » no complete
 » no run 0
-» s = 1.585 (friction = 0.1, phase = 1.4) to 1.991 (friction = 0.5, phase = 0).
+» s = 1.585 (friction = 0.1, phase = 1.4 rad) to 1.991 (friction = 0.5, phase = 0).
 several, having("status", 2, friction=0)(several)
 » complete       2 computed, 2 missing
 » regimes        2 partial_slip
@@ -154,11 +154,11 @@ several, having("s_error", 3e-4)(several)
 » accurate       relative error of s estimated up to 0.00019, median 0.00017
 » 4 of 4 points above rtol
 several, having("critical_x", np.nan)(several)
-» s = 1.585 (friction = 0.1, phase = 1.4) to 1.991 (friction = 0.5, phase = 0).
+» s = 1.585 (friction = 0.1, phase = 1.4 rad) to 1.991 (friction = 0.5, phase = 0).
 several, several.stack(place=("friction", "phase"))
 » axis           place: 4 points of friction, phase
 » sampled        friction: 0.1, 0.5
-» sampled        phase: 0, 1.4
+» sampled        phase: 0, 1.4 rad
 several, several.isel(friction=0, phase=0)
 » no axis
 » s = 1.591 at x/a_H = 1.

@@ -74,7 +74,7 @@ def test_an_axis_may_be_drawn_at_one_value(tmp_path: Path) -> None:
     done = call("plot", archive, "--at", "friction=0.5")
     assert "friction: found '0.5', which is not in these results; allowed: 0.3, 0.6" in done.stderr
     done = call("plot", archive, "--x", "friction", "--at", "phase=90")
-    assert 'allowed: 0, 1; for degrees write "90 deg"' in done.stderr
+    assert 'allowed: 0, 1 rad; for degrees write "90 deg"' in done.stderr
     assert "degrees" not in call("plot", archive, "--x", "friction", "--at", "phase=pi/2").stderr
     done = call("plot", archive, "--at", "friction")
     assert "--at: found 'friction'; allowed: an axis and a value, such as friction=0.6" in done.stderr

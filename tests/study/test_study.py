@@ -286,7 +286,7 @@ def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
     assert html.endswith("</td></tr></table></div>")
     rows = re.findall(r"<tr><td>(.*?)</td><td><b>(.*?)</b></td><td>(.*?)</td><td>(.*?)</td></tr>", html)
     found = {name: (kind, values, meaning.partition("; figure: ")[2]) for kind, name, values, meaning in rows}
-    assert found["phase"] == ("axis", "0, 1 … 6 (7 values)", "x")
+    assert found["phase"] == ("axis", "0, 1 rad … 6 rad (7 values)", "x")
     assert found["frequency_ratio"] == ("axis", "1/2, 1", "hue")
     assert found["friction"] == ("fixed", "0.4", "")
     assert list(found)[:2] == ["phase", "frequency_ratio"]
