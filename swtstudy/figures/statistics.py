@@ -29,6 +29,8 @@ _POINTS = ("o", "^", "s", "D", "v")
 _PERCENTILES = {5: ":", 50: "-", 95: "--"}
 #: Hatches of histograms: their number is coprime to the number of the colours, so that no pair repeats early.
 _HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx")
+#: So many tests at most are numbered in the figure of a fit.
+NUMBERED = 20
 
 
 def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
@@ -168,6 +170,8 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
 def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
     """Predicted over observed lives, with the lines of equal lives and of factors of 2 and 5.
 
+    Few tests are numbered, in the order of their table.
+
     Parameters
     ----------
     fitted
@@ -192,6 +196,9 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
             if some.any():
                 look = dots(COLOURS[0], marker=marker, fillstyle=fill)
                 axes.plot(fitted.observed[some], fitted.predicted[some], label=words, **look)
+        for number in fitted.test.values.tolist() if fitted.sizes["test"] <= NUMBERED else ():
+            place = (float(fitted[name].sel(test=number)) for name in ("observed", "predicted"))
+            axes.annotate(str(number), (*place,), (3, 3), textcoords="offset points", fontsize="x-small")
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")
         add_legend(figure)

@@ -26,6 +26,7 @@ from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wr
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.rows import kinds_of, with_replaced
+from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -40,6 +41,7 @@ from swtstudy.vocabulary.mistakes import (
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.version import __version__
 from swtstudy.vocabulary.wording import number_of
 
 #: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
@@ -113,7 +115,8 @@ def fit(
         ``critical_distance`` and, if asked, ``friction``, with the ends of their intervals, ``_low`` and
         ``_high``; ``observed`` and ``predicted`` lives along ``test``, and ``runout``; ``scatter``, the
         standard deviation of log10 N; ``within_2`` and ``within_5``, the number of tests within these
-        factors, among them run-outs whose predicted life is above, or below by less than the factor.
+        factors, among them run-outs whose predicted life is above, or below by less than the factor. The
+        attribute ``study`` has the tests with the study's constants as a study of their own.
 
     Raises
     ------
@@ -144,7 +147,7 @@ def fit(
         words = f"the best one is at the {end} end of the range tried, {ends} {grid.labels.length}, where "
         words += f"predicted lives are still {lives} than the tests'"
         raise refused(DISTANCE, words, "tests whose lives depend on it within that range")
-    return _labelled(tests_of, best, float(confidence))
+    return _labelled(tests_of, best, float(confidence), Path(study).stem)
 
 
 class _Tests:
@@ -339,7 +342,7 @@ def _asked(distances: FloatArray) -> Request:
     return Request((), tuple(distances.tolist()), is_axis=True, counts=True)
 
 
-def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
+def _labelled(tests: _Tests, best: FloatArray, confidence: float, title: str) -> xr.Dataset:
     """The fit as a Dataset; the scatter comes from the likelihood and is lower than the sample's."""
     residuals, runout, grid = tests.residuals(best[:-1]), tests.runout, tests.grid
     cracked = int((~runout).sum())
@@ -353,10 +356,10 @@ def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
             with np.errstate(over="ignore"):
                 found[f"{name}{end}"] = (), float(np.exp(logarithm)), words
     for name, lives in (("observed", tests.observed), ("predicted", tests.observed + residuals)):
-        words = {"long_name": f"{name} load cycles to a crack", "symbol": "N"}
+        words = {"long_name": f"{name} load cycles to a crack", "symbol": "N", "units": "1"}
         found[name] = "test", 10.0**lives, words
     found[RUNOUT] = "test", runout.astype("i1"), {"long_name": "1 for tests without a crack"}
-    found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N"}
+    found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N", "units": "1"}
     off = np.where(runout, np.maximum(-residuals, 0.0), np.abs(residuals))
     for factor in (2, 5):
         within = int((off <= math.log10(factor)).sum())
@@ -365,7 +368,10 @@ def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
     for name, values in grid.samples.items():
         if grid.row(name).kind != "name":
             coordinates[name] = "test", np.array([*map(as_number, values)]), {"units": grid.row(name).units}
-    return xr.Dataset(found, coordinates, {"y": tests.y, "confidence": confidence})
+    # The tests with the study's constants, as a study of its own.
+    text = to_toml(f"Tests of {title}", RTOL, grid, None)
+    attributes = {"y": tests.y, "confidence": confidence, "source": f"swtstudy {__version__}", "study": text}
+    return xr.Dataset(found, coordinates, attributes)
 
 
 def _read(

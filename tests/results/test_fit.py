@@ -287,9 +287,18 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     # Of the sample: 12 tests, of which 8 cracked, and one parameter.
     assert float(found.scatter) == pytest.approx(np.exp(best.x[1]) * np.sqrt(8 / 7), rel=5e-3)
     assert found.runout.values.tolist() == runout.astype(int).tolist()
+    # Everything has a unit; the text of the study has the tests and the constants.
+    assert {found[name].attrs["units"] for name in ("observed", "predicted", "scatter")} == {"1"}
+    again = Study.from_text(found.attrs["study"]).grid
+    np.testing.assert_array_equal(again.samples["tangential_force_amplitude"], forces)
+    assert again.materials == (ALUMINIUM, ALUMINIUM)
+    assert str(again.values("load")[0]) == "two"
     # In the figure they are open marks that point to longer lives, with a word in the legend.
     figure = draw_fit(found)
     (axes,), (legend,) = figure.axes, figure.legends
+    assert [text.get_text() for text in axes.texts] == [str(number) for number in range(1, 13)]
+    place = float(found.observed[3]), float(found.predicted[3])
+    assert axes.texts[3].xy == pytest.approx(place)
     cracked, survived = axes.lines[-2:]
     np.testing.assert_allclose(cracked.get_xdata(), bounds[~runout])
     np.testing.assert_allclose(survived.get_xdata(), bounds[runout])
