@@ -7,6 +7,7 @@ from dataclasses import replace
 from pkgutil import resolve_name
 from string import ascii_uppercase
 
+import numpy as np
 import xarray as xr
 
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
@@ -69,7 +70,9 @@ def draw(
             figure.suptitle(layout.title)
         loads = defined_in(dataset.attrs).get("load", {}) if layout.hue == "load" else {}
         loops = {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, Loop)}
-        add_legend(figure, loops)
+        # Loops at constant normal loads, or tangential ones, are lines that tell nothing.
+        shaped = any(np.ptp(load.course()[:, :2], axis=0).all() for load in loops.values())
+        add_legend(figure, loops if shaped else None)
         wrap_texts(figure)
     return figure
 

@@ -100,13 +100,14 @@ def _draw_line(
 ) -> None:
     """One curve with its dots, marks and bands."""
     x, curve, upright = part[layout.x].values, part.value.values.astype(float), layout.kind == "life"
-    gaps = np.array([], dtype=np.intp)
+    jumps: dict[str, IndexArray] = {}
     if flag_words(whole):
         look["drawstyle"] = "steps-mid"
     elif may_jump(y):
-        gaps = place_jumps(curve, y)
-    if "zone" in part:  # of another model
-        gaps = np.union1d(gaps, np.flatnonzero(np.diff(part.zone.values)) + 1)
+        jumps["another maximum takes over"] = place_jumps(curve, y)
+    if "zone" in part:
+        jumps["another model of the stick zone"] = np.flatnonzero(np.diff(part.zone.values)) + 1
+    gaps = np.unique(np.concatenate([np.array([], np.intp), *jumps.values()]))
 
     def turned(one: Any, other: Any) -> tuple[Any, Any]:
         return (other, one) if upright else (one, other)
@@ -118,8 +119,10 @@ def _draw_line(
         line.set_markevery(1)
         if line.get_marker() in ("", "None"):
             line.set(marker=".", markersize=1.6 * rcParams["lines.markersize"])
-    if ends := [*(gaps - 1), *gaps]:
-        axes.plot(*turned(x[ends], curve[ends]), **dots(colour, 0.8, markerfacecolor="white", zorder=3))
+    for words, own in jumps.items():
+        if ends := [*(own - 1), *own]:
+            dot = dots(colour, 0.8, markerfacecolor="white", zorder=3)
+            axes.plot(*turned(x[ends], curve[ends]), label=words, **dot)
     known = np.pad(np.isfinite(curve), 1)
     alone = known[1:-1] & ~known[:-2] & ~known[2:]  # which no line shows
     if alone.any():

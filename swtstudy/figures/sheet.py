@@ -24,6 +24,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
 from swtstudy.figures.style import Style, picture, stroke, styled
+from swtstudy.points.validity import OUTSIDE
 from swtstudy.solver.load_path import Loop
 from swtstudy.vocabulary.mistakes import literal, refused
 
@@ -275,6 +276,11 @@ def add_legend(figure: Figure, loops: Mapping[str, Loop] | None = None) -> None:
             handles.setdefault(label, handle)
     if not handles:
         return
+    # The mark of places outside of limits has one entry, with the limits of all panels.
+    beyond = {label: handles.pop(label) for label in [*handles] if label.startswith(OUTSIDE)}
+    if beyond:
+        limits = dict.fromkeys(each for label in beyond for each in label.removeprefix(OUTSIDE).split(", "))
+        handles[OUTSIDE + ", ".join(limits)] = next(iter(beyond.values()))
 
     def rank(label: str) -> tuple[bool, bool, float]:
         order = handles[label].get_zorder()

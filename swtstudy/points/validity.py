@@ -19,6 +19,8 @@ from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
+#: What the name of the limits that points exceed begins with.
+OUTSIDE = "outside: "
 _KNOWN = " to ".join(numbers_words(KNOWN_LIVES, 3))
 #: Positions nearer to a sharp tip than this, in a_H, are at the tip.
 BESIDE_TIP = 10.0 * INNERMOST
@@ -233,7 +235,7 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
         limits["extrapolated life"] = _beyond(values.values)
         found = found | limits["extrapolated life"]
     words = ", ".join(name for name, each in limits.items() if each.any())
-    return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
+    return found.transpose(*values.dims).assign_attrs(long_name=f"{OUTSIDE}{words}")
 
 
 def _above_line(dataset: xr.Dataset) -> BoolArray:

@@ -222,8 +222,11 @@ def test_a_line_breaks_where_the_stick_zone_is_of_another_model(over: tuple[str,
     dataset = made_up(lambda phase: np.cos(phase), phase=X)
     zone = np.where(X < 2.0, 1, 0).astype("i1") if over else np.int8(1)
     dataset["stick_zone"] = over, zone
-    line, *marks = draw(dataset, keys("phase")).axes[0].lines
+    figure = draw(dataset, keys("phase"))
+    line, *marks = figure.axes[0].lines
     assert int(np.isnan(line.get_ydata()).sum()) == len(marks) == len(over)
+    words = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    assert words == ["another model of the stick zone"] * len(over)
     for mark in marks:
         assert np.searchsorted(X, mark.get_xdata()).tolist() == [
             int(np.argmax(X >= 2.0)) - 1,

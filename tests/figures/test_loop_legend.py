@@ -47,6 +47,17 @@ def test_a_loop_of_harmonics_is_drawn_as_one_of_straight_lines(tmp_path: Path) -
     assert radius == pytest.approx(0.5 * np.ptp(x), rel=1e-3)
 
 
+def test_loops_at_a_constant_normal_load_are_not_drawn(tmp_path: Path) -> None:
+    """They are straight lines, which look like another sample of the line."""
+    text = (
+        ROUND.replace("[[1, 0.2, 0.0]]", "[[1, 0, 0]]").replace("[0.2, ", "[0, ").replace("[-0.2, ", "[0, ")
+    )
+    results = swtstudy.run(swtstudy.Study.from_text(text), tmp_path / "flat.nc", solver=stand_in.smooth)
+    (legend,) = results.swt.panels("friction", hue="load").legends
+    assert [text.get_text() for text in legend.get_texts()] == ["round", "square"]
+    assert small_lines(legend) == []
+
+
 def test_other_legends_are_as_they_were() -> None:
     (legend,) = swtstudy.open_results(RESULTS / "figure3.nc").swt.figure().legends
     assert small_lines(legend) == []
