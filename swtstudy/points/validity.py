@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -313,10 +313,14 @@ def _place(dataset: xr.Dataset, values: FloatArray, besides: tuple[str, ...] = (
 
 def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -> str:
     """Where one of the flattened points lies, such as "friction = 0.5, normal_force = 100 N"."""
+    place = index_at(dataset.s, flat)
+    return index_words(dataset, {dim: number for dim, number in place.items() if dim not in besides})
+
+
+def index_words(dataset: xr.Dataset, place: Mapping[str, int]) -> str:
+    """The same of indices along dimensions."""
     words = []
-    for dim, number in index_at(dataset.s, flat).items():
-        if dim in besides:
-            continue
+    for dim, number in place.items():
         # A stacked dimension has the values of several axes.
         names = dataset.indexes[dim].names if dim in dataset.indexes else ()
         for name in map(str, names):

@@ -24,13 +24,13 @@ WORDS = sayings(r"""
 dict(s=at_points(1.0, 2.0))
 dict(repetitions=at_points(20.0, 100.0), damage_share=SHARES)
 » 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 to 100 times to a crack; running does 75% of
-    the damage
+    the damage at friction = 0
 dict(repetitions=at_points(100.0, 20.0), damage_share=SHARES)
 » 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 to 100 times to a crack; start-up does 90% of
-    the damage
+    the damage at friction = 1
 dict(repetitions=at_points(NAN, 20.0), damage_share=SHARES)
 » 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 times to a crack, unknown at 1 of 2 points;
-    start-up does 90% of the damage
+    start-up does 90% of the damage at friction = 1
 dict(repetitions=at_points(20.0, INF), damage_share=SHARES[:, 0].drop_vars("load"))
 » 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 times to a crack, unknown at 1 of 2 points
 dict(repetitions=at_points(INF, NAN), damage_share=SHARES)
@@ -38,7 +38,7 @@ dict(repetitions=at_points(INF, NAN), damage_share=SHARES)
 dict(repetitions=at_points(INF, NAN), damage_share=SHARES, FS_repetitions=at_points(30.0, 40.0),
     FS_damage_share=SHARES)
 » 10 of start-up, 1000 of running, 5.5 of start-up: no crack; repeated 30 to 40 times to a crack by Fatemi and
-    Socie; running does 75% of the damage
+    Socie; running does 75% of the damage at friction = 0
 dict(FS_repetitions=at_points(INF, INF), FS_damage_share=SHARES)
 » 10 of start-up, 1000 of running, 5.5 of start-up: no crack by Fatemi and Socie
 dict(repetitions=at_points(20.0, 30.0), damage_share=SHARES[:, 0].drop_vars("load"),
@@ -61,7 +61,7 @@ def test_each_criterion_has_its_own_points() -> None:
     times = xr.DataArray(values, criteria, ("friction", "criterion"))
     shares = SHARES.expand_dims(criterion=criteria["criterion"], axis=1)
     found = xr.Dataset({"repetitions": times, "damage_share": shares})
-    words = "repeated 20 to 30 times to a crack; running does 75% of the damage"
+    words = "repeated 20 to 30 times to a crack; running does 75% of the damage at friction = 0"
     assert sequence_words(found, BLOCKS) == f"{ROUNDS}, {words}"
 
 

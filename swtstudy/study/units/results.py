@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.points.validity import index_words
 from swtstudy.points.values import index_at
 from swtstudy.study.units.life import Block, LifeCurve
 from swtstudy.study.units.rows import LABELS, TABLES, Units
@@ -254,10 +255,12 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
             words += f" (worst point), {_ends(means[np.isfinite(means)])} (mean over a volume)"
         if lost := times.size - known.size:
             words += f", unknown at {lost} of {times.size} points"
-        share = shares.isel(index_at(times, int(np.nanargmin(times.values))))
-        if share.ndim:
+        place = index_at(times, int(np.nanargmin(times.values)))
+        if (share := shares.isel(place)).ndim:
             most = share[int(share.values.argmax())]
             words += f"; {most.coords['load'].item()} does {float(most):.0%} of the damage"
+            place.pop("criterion", None)
+            words += f" at {where}" if (where := index_words(dataset, place)) else ""
         several.append(words)
     if not several:
         return ""
