@@ -68,6 +68,8 @@ def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[ob
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
 _DIFFERENCE, _SMALLEST_DIFFERENCE = 0.03, 1e-6
+#: Nearer to an end of a range, as a share of it, an optimum is at the end.
+_AT_END = 1e-6
 #: A plane that is off by this fraction of its rise is bent by a kink.
 _BENT = 0.2
 
@@ -374,7 +376,8 @@ def optimise(
         Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the smallest and at the
         largest value of the quantity, with the parameters of ``over`` as coordinates; ``evaluations`` is the
         number of points that were solved. Points where the quantity is not finite are left out;
-        ``without_value`` counts them.
+        ``without_value`` counts them. The attribute ``at_ends`` names ends of ranges at which the best or the
+        worst point is: a wider range may have a better one.
 
     Raises
     ------
@@ -443,7 +446,15 @@ def optimum_in(
     cases = cases.assign(evaluations=("case", [*map(len, values)], words))
     cases = cases.assign_coords(case=["best", "worst"])
     without = int(np.isinf(np.concatenate(values)).sum())
-    return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without)
+    # Beyond an end of a range there may be a better value.
+    ends = [
+        f"{case} at the {'upper' if unit > 0.5 else 'lower'} end of {name}"
+        for case, place in zip(cases.case.values, places, strict=True)
+        for name, unit in zip(over, place.tolist(), strict=True)
+        if min(unit, 1.0 - unit) < _AT_END
+    ]
+    words = {"at_ends": ", ".join(ends)} if ends else {}
+    return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without, **words)
 
 
 def check_asked(report: Report, minimise: object, rtol: object, seed: object, known: Collection[str]) -> None:

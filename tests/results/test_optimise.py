@@ -112,6 +112,15 @@ def test_another_quantity():
     assert found.critical_x.sel(case="worst") >= grid.critical_x.max() - 1e-6
 
 
+def test_an_optimum_at_an_end_of_a_range_is_told():
+    """s grows with friction; the phases of its extremes are inside."""
+    found = swtstudy.optimise({"friction": (0.2, 0.4), "phase": (0, "pi")}, rtol=1e-2)
+    assert found.friction.values.tolist() == [0.2, 0.4]
+    ends = "best at the lower end of friction, worst at the upper end of friction"
+    assert found.attrs["at_ends"] == ends
+    assert "at_ends" not in swtstudy.optimise({"phase": (0, "pi")}, friction=0.2, rtol=1e-2).attrs
+
+
 @pytest.mark.slow
 def test_a_quantity_beside_s(monkeypatch):
     # The work is that of the mechanics.
