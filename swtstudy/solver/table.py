@@ -13,7 +13,7 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
 from swtstudy.vocabulary.families import MEAN_LOAD
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, more_like_it, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, more_like_it, plain_number, refused
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline, PPoly
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 SMALLEST, LARGEST = 1e-20, 1e20
 #: Most points of a table: a rough one of so many takes 20 s to be fitted, a smooth one 1 s.
 MOST = 10_000
+#: Points of a table from a function.
+SAMPLES = 1001
 #: Least step of its radii over the largest: the rounding of such a step is 1e-4 of it.
 LEAST_STEP = 1e-12
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
@@ -83,6 +85,43 @@ class TabulatedProfile(Definition):
         if mistakes:
             raise StudyError(mistakes)
         self.smoothing = float(smoothing)
+
+    @classmethod
+    def sampled(
+        cls, name: str, height: Callable[[FloatArray], ArrayLike], radius: float, geometry: str = AXISYMMETRIC
+    ) -> TabulatedProfile:
+        """A profile from a function, by its values at 1,001 even radii.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        height
+            From radii, shape (k,), to the heights there, 0 at the axis.
+        radius
+            End of the table: a radius beyond all contacts.
+        geometry
+            As of the class.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+
+        Examples
+        --------
+        >>> import swtstudy
+        >>> sphere = swtstudy.TabulatedProfile.sampled("sphere", lambda r: 25 - 5 * (25 - r**2) ** 0.5, 2)
+        >>> swtstudy.solve(profile=[sphere, "paraboloid"], rtol=1e-3).s.round(3).values.tolist()
+        [0.162, 0.155]
+        """
+        places = np.linspace(0.0, plain_number(radius), SAMPLES)
+        try:
+            heights = np.broadcast_to(np.asarray(height(places), float), places.shape)
+        except (TypeError, ValueError) as error:
+            found = f"a function that fails ({error})"
+            raise refused(f"{name}.height", found, "heights, of the shape of the radii") from None
+        return cls(name, places, heights, geometry=geometry)
 
     @property
     def plane(self) -> bool:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from told import lines_of, sayings
+from told import lines_of, refused, sayings
 
+import swtstudy
 from swtstudy import LoadPath, TabulatedProfile
 from swtstudy.study.writing import defined_in, definitions_text
 
@@ -311,3 +312,14 @@ def test_a_table_in_other_units_is_as_if_it_were_fitted_in_them(
         (scaled.smoothed_share(0.2 / units[1]), fitted.smoothed_share(0.2 / units[1])),
     ):
         np.testing.assert_allclose(one, other, rtol=1e-6, atol=1e-9 * np.max(other))
+
+
+@pytest.mark.parametrize("profile", ["paraboloid", "cylinder"])
+def test_a_profile_from_a_function_is_that_profile(profile: str) -> None:
+    geometry = "plane" if profile == "cylinder" else "axisymmetric"
+    own = TabulatedProfile.sampled("own", lambda x: 0.5 * x**2, 4.0, geometry)
+    found = swtstudy.solve(profile=[own, profile], normal_force_amplitude=0.5, tangential_force_amplitude=0.5)
+    np.testing.assert_allclose(found.s[0], found.s[1], rtol=1e-4)
+    for wrong in (3.0, lambda x: x[:3], lambda x: "high"):
+        refused("own.height: found a function that fails", TabulatedProfile.sampled, "own", wrong, 4.0)
+    refused("own.radius: found nan", TabulatedProfile.sampled, "own", np.square, "wide")
