@@ -132,7 +132,7 @@ class PhysicalContact:
         return xr.DataArray(values, labels) if labels else values.values.item()
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *AT_REST, *self.grid.rows]
+        return sorted({*super().__dir__(), *AT_REST, *self.grid.rows})
 
     @property
     def units(self) -> dict[str, str]:

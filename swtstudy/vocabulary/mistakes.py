@@ -211,7 +211,7 @@ def nearest(
     'did you mean friction (μ)? known: friction, phase'
     >>> nearest("x", ["friction", "phase"])
     'one of friction, phase'
-    >>> nearest("figre", [f"figure{n}" for n in range(10)], listed_by="swtstudy list")
+    >>> nearest("figre", [f"figure{n}" for n in range(20)], listed_by="swtstudy list")
     'did you mean figure9, figure8 or figure7? list all: swtstudy list'
     """
     known = list(known)
