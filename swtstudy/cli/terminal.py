@@ -89,7 +89,7 @@ def check_options(context: click.Context, command: click.Command, args: list[str
     except click.NoSuchOption as error:
         options = [name for each in command.params for name in each.opts if name.startswith("--")]
         names = {name.removeprefix("--").replace("-", "_"): name for name in options}
-        close = meant(error.option_name, names)
+        close = meant(error.option_name.lstrip("-"), names)
         if close is None:
             raise
         words = f"No such option '{error.option_name}'. Did you mean '{names[close]}'?"

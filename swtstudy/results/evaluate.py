@@ -128,7 +128,7 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
     if place is None:
         name = y.strip()
         if name not in dataset.data_vars:
-            known = f"{nearest(name, map(str, dataset.data_vars))}; or {QUANTITY}"
+            known = f"{nearest(name, map(str, dataset.data_vars))}; or {QUANTITY}".replace("?;", "?")
             raise refused("figure.y", f"{literal(y)} (not a quantity)", known)
         return known_regime(dataset) if name == "regime" else dataset[name]
     name, value = place

@@ -276,7 +276,8 @@ def _wrong_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         allowed = f"in a study with {' and '.join(lacks)}; or {', '.join(known)}"
         yield "figure.y", found, allowed
     else:
-        yield "figure.y", f"{found} (not a quantity)", f"{nearest(y, known)}; or {QUANTITY}"
+        allowed = f"{nearest(y, known)}; or {QUANTITY}".replace("?;", "?")
+        yield "figure.y", f"{found} (not a quantity)", allowed
 
 
 def wrong_formula(text: str) -> str | None:

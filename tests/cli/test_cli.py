@@ -182,7 +182,15 @@ def test_a_style_is_the_users(ran, tmp_path):
     assert len(result.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize(("typed", "meant"), [("--psi=0", "--phase"), ("--u-a", "--tangential-amplitude")])
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("--psi=0", "--phase"),
+        ("--u-a", "--tangential-amplitude"),
+        ("--P", "--normal-force-amplitude"),
+        ("--f", "--friction"),
+    ],
+)
 def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
     result = call("solve", typed)
     assert result.exit_code == 2
