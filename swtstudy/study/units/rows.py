@@ -127,7 +127,7 @@ def likely_units(kind: str, label: str) -> list[str]:
     >>> likely_units("length", "milimeter"), likely_units("force", "mn"), likely_units("length", "cm2")
     (['mm'], ['MN', 'mN'], ['cm'])
     >>> likely_units("stress", "N"), likely_units("length", "furlong")
-    (['Pa', 'kPa', 'MPa', 'GPa', 'N/mm²', 'N/mm2', 'psi', 'ksi'], [])
+    (['Pa', 'kPa', 'MPa', 'GPa', 'bar', 'N/mm²', 'N/mm2', 'psi', 'ksi'], [])
     """
     known = KNOWN[kind]
     if label in known:
