@@ -51,6 +51,9 @@ LEAST_USED = 0.7
 INNERMOST, LEAST = 0.1, 5
 #: Share of the largest rise up to which heights are 0, and of the largest radius up to which a face is none.
 ROUND, LEAST_FACE = 1e-5, 0.05
+#: Standard deviations 1/√n of the ratio of two r.m.s. of n numbers from 1: the noise of the mean, and half of
+#: the difference of both sides, which is the least of those about many middles.
+BY_CHANCE = 4.0
 #: Share of the radii up to which a trace is smoothed to one contact area: contacts are smaller as a rule.
 COMPACT = 0.5
 #: A face may be hidden by noise. So many parts of the heights are averaged; standard deviations of a mean
@@ -77,7 +80,8 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     level
         Whether to take off the tilt that makes both sides most alike. An offset is always taken off.
     smoothing, geometry
-        As of a `TabulatedProfile`; the smoothing is the difference of the sides unless it is given.
+        As of a `TabulatedProfile`. The default smoothing is the noise of the mean, estimated from the
+        difference of both sides, and four standard deviations of this estimate.
     columns
         Headers of the columns ``position`` and ``height``, where they are not these words; both in lengths
         of one unit, heights growing away from the other body.
@@ -109,7 +113,8 @@ def trace_from(own: Path, name: str, form: TraceTable, units: Units | None = Non
     is_cap = max(ends) < sound.max() - 0.5 * span
     if min(ends) - sound.min() < LEAST_RISE * span and not is_cap:
         found = "one side only: heights are lowest at an end of the trace"
-        allowed = "both sides, with the lowest point between them; of one side a table of radius and height"
+        allowed = "both sides, with the lowest point between them: of a tilted one take off the slope, "
+        allowed += "of one side give a table of radius and height"
         raise refused("", found, allowed, str(own))
     fold = Fold.of(position, height, form.level)
     if -fold.height.min() > fold.height.max():
@@ -118,13 +123,13 @@ def trace_from(own: Path, name: str, form: TraceTable, units: Units | None = Non
         raise refused("", found, allowed, str(own))
     for line in _doubts(position, fold, rows):
         warnings.warn(f"{name}: {line}", stacklevel=2)
-    given = fold.noise if form.smoothing is None else form.smoothing
+    given = fold.smoothing if form.smoothing is None else form.smoothing
     profile = TabulatedProfile(name, fold.radius, fold.height, given, form.geometry)
     compact = COMPACT * fold.radius[-1]
     is_fine = form.smoothing is not None or profile.compact_radius >= compact
     if is_fine or (least := profile.least_smoothing(compact)) is None:
         return profile
-    found = f"smoothing = {least:.3g}, {least / given:.2g} times the r.m.s. difference of both sides"
+    found = f"smoothing = {least:.3g}, {least / fold.noise:.2g} times the r.m.s. difference of both sides"
     warnings.warn(f"{name}: {found}: with less it touches in several places", stacklevel=2)
     return TabulatedProfile(name, fold.radius, fold.height, least, form.geometry)
 
@@ -142,13 +147,17 @@ def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> Iterator[str]
     at = np.sort(position)
     steps = np.diff(at)
     middle_step = float(np.median(steps[steps > 0.0]))
-    for gap in np.flatnonzero(steps > GAP * middle_step):
-        ends = f"a gap of {steps[gap]:.4g} in the positions, from {at[gap]:.4g} to {at[gap + 1]:.4g}"
-        yield f"{ends}, where most steps are {middle_step:.4g}: the heights there are unknown"
+    gaps = np.flatnonzero(steps > GAP * middle_step)
+    if gaps.size:
+        widest = gaps[np.argmax(steps[gaps])]
+        ends = f"a gap of {steps[widest]:.4g} in the positions, from {at[widest]:.4g} to {at[widest + 1]:.4g}"
+        more = f", and {gaps.size - 1} more, none wider" if gaps.size > 1 else ""
+        yield f"{ends}{more}, where most steps are {middle_step:.4g}: the heights there are unknown"
     used = 2.0 * fold.radius[-1] / np.ptp(position)
     if used < LEAST_USED:
         found = f"the middle is at {fold.middle:.4g}, so that only {used:.0%} of the trace has two sides"
-        yield f"{found}: radii up to {fold.radius[-1]:.4g}; is that the middle?"
+        way = "is that the middle? A tilt may hide it: take the slope off the heights"
+        yield f"{found}: radii up to {fold.radius[-1]:.4g}; {way}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +169,10 @@ class Fold:
     radius, height
         Shape (m,): even radii from 0 on, and the mean of both sides above the lowest point.
     noise
-        Root mean square of half of the difference of both sides; their mean has the same noise.
+        Root mean square of the noise of the heights: that of half of the difference of both sides, and more
+        where one side is unknown.
+    compared
+        Number of radii at which both sides are known.
     middle
         Position of the middle.
     kept
@@ -170,14 +182,13 @@ class Fold:
     radius: FloatArray
     height: FloatArray
     noise: float
+    compared: int
     middle: float
     kept: BoolArray
 
     @classmethod
     def of(cls, position: FloatArray, height: FloatArray, level: bool) -> Fold:
         """Fold a trace, of positions and heights (k,) in any order; with ``level`` without its tilt."""
-        from scipy.interpolate import CubicSpline
-
         kept = real = _without_sentinels(height)
         for _ in range(2):  # the middle of what is left without dust is closer
             middle, tilt = _middle(position[kept], height[kept], level)
@@ -190,11 +201,13 @@ class Fold:
             first = max(int(np.searchsorted(distance, 0.0)) - 3, 0)
             sides.append((distance[first:], own[first:]))
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
-        values = np.array([CubicSpline(*side)(radius) for side in sides])
         known = np.array([_reached(side[0], radius) for side in sides])
-        mean = np.average(values, axis=0, weights=np.where(known.any(axis=0), known, True))
-        odd = 0.5 * np.diff(values, axis=0)[0, known.all(axis=0)]
-        noise = float(np.sqrt(np.mean(odd**2))) if odd.size else 0.0
+        weights = np.where(known.any(axis=0), known, True)
+        both = np.asarray(known.all(axis=0))
+        values = _interpolated(sides, radius, both)
+        odd = 0.5 * np.diff(values, axis=0)[0, both]
+        mean = np.average(values, axis=0, weights=weights)
+        noise = float(np.sqrt(np.mean(odd**2) * np.mean(2.0 / weights.sum(axis=0)))) if odd.size else 0.0
         inner = slice(max(LEAST, int(INNERMOST * len(radius))))
         mean = mean - np.polynomial.Polynomial.fit(radius[inner] ** 2, mean[inner], 1)(0.0)
         mean[0] = 0.0
@@ -202,7 +215,28 @@ class Fold:
         if radius[rises] > LEAST_FACE * radius[-1]:
             mean = np.maximum(mean - mean[:rises].mean(), 0.0)
             mean[:rises] = 0.0
-        return cls(radius, mean, noise, middle, kept)
+        return cls(radius, mean, noise, odd.size, middle, kept)
+
+    @property
+    def smoothing(self) -> float:
+        """Misfit that no noise of the heights exceeds by chance: with less a fit follows the noise."""
+        return self.noise * (1.0 + BY_CHANCE / np.sqrt(max(self.compared, 1)))
+
+
+def _interpolated(
+    sides: list[tuple[FloatArray, FloatArray]], radius: FloatArray, known: BoolArray
+) -> FloatArray:
+    """Heights of both sides at radii, shape (2, m), by cubics, or by lines where these differ less.
+
+    Clean heights are closest to cubics. Cubics magnify noise where positions are uneven.
+    """
+    from scipy.interpolate import CubicSpline
+
+    cubic = np.array([CubicSpline(*side)(radius) for side in sides])
+    linear = np.array([np.interp(radius, *side) for side in sides])
+    squares = [float(np.sum(np.diff(values, axis=0)[0, known] ** 2)) / 4.0 for values in (cubic, linear)]
+    missed = float(np.mean([_missed(*side).mean() for side in sides]))
+    return linear if squares[1] + np.sum(known) * missed**2 < squares[0] else cubic
 
 
 def _face(height: FloatArray, noise: float) -> int:
@@ -238,9 +272,14 @@ def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[floa
     """The middle, and the tilt about it."""
     x, z = _merged(position, height)
     centre, reach = 0.5 * float(x[0] + x[-1]), 0.25 * float(np.ptp(x))
-    best = _best(x, z, centre, reach, np.inf, False)
+    found = _best(x, z, centre, reach, np.inf, False)
+    best = _best(x, z, found.middle, NEAR * reach, np.inf, level)
+    if level:
+        # A tilted flat is lowest at an edge. With a tilt a flank alone has two sides, too, but it is smaller.
+        found = _best(x, z, centre, reach, np.inf, True)
+        if found.cost < best.cost and found.radius[-1] > best.radius[-1]:
+            best = found
     reach *= NEAR
-    best = _best(x, z, best.middle, reach, np.inf, level)
     if best.lowest.sum() >= 2 * FEWEST:
         # All middles with one window: with a smaller one each would have less to differ in.
         reach *= STEPS_AROUND * 2.0 / (MIDDLES - 1)
@@ -317,9 +356,9 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolAr
     known = np.isfinite(differs)
     if not known.any():
         return np.zeros(len(position), bool)
-    floor = 1e-6 * np.ptp(height)
+    missed, floor = float(np.quantile(_missed(*_merged(position, height)), 1.0 - DUST)), 1e-6 * np.ptp(height)
     limits = [OUTLIER * max(float(np.median(np.abs(v[known]))) / 0.6745, floor) for v in (residual, differs)]
-    out = known & (np.abs(residual) > limits[0]) & (np.abs(differs) > limits[1])
+    out = known & (np.abs(residual) > limits[0]) & (np.abs(differs) > limits[1] + missed)
     # The one of two opposite samples that is nearer to the spline is sound.
     out &= np.abs(residual) >= 0.5 * np.abs(differs)
     return out if out.mean() < MOST_OUTLIERS else np.zeros(len(position), bool)
@@ -335,6 +374,12 @@ def _merged(distance: FloatArray, height: FloatArray) -> tuple[FloatArray, Float
     group = np.append(0, np.cumsum(steps > 0.1 * np.median(steps[steps > 0.0])))
     count = np.bincount(group)
     return np.bincount(group, distance) / count, np.bincount(group, height) / count
+
+
+def _missed(distance: FloatArray, height: FloatArray) -> FloatArray:
+    """Errors of linear interpolation between samples: a quarter of those at the samples without them."""
+    step, steps = np.diff(distance)[:-1], distance[2:] - distance[:-2]
+    return 0.25 * np.abs(np.diff(height)[:-1] - step / steps * (height[2:] - height[:-2]))
 
 
 def _reached(distance: FloatArray, radius: FloatArray) -> BoolArray:
