@@ -10,6 +10,7 @@ import re
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
@@ -42,6 +43,8 @@ FORMATS = (
 
 #: Said of numbers with a decimal comma.
 COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
+#: Said of times that are not understood.
+CLOCK_HINT = ", or times in all rows, such as 23:59:05.25 or 2026-12-31 23:59:05.25"
 
 #: Cells, in small letters, without a value: MATLAB and pandas write NaN.
 MISSING = ("", "nan")
@@ -185,6 +188,8 @@ class UserTable:
                     hint = hint or "; leave such rows out"
                 elif "," in text and self.decimal == ".":
                     hint = COMMA_HINT
+                elif ":" in text:
+                    hint = CLOCK_HINT
                 elif row == 0:
                     hint = "; lines above the header are skip_rows, a row of units is units_row = true"
                 if hint not in hints:
@@ -369,15 +374,45 @@ class UserTable:
 
 
 def clock(texts: Sequence[str]) -> FloatArray:
-    """Seconds from the first of times of day or dates on; NaN if they are none."""
+    """Seconds since the first cell, of times of day or dates; NaN in a cell that is neither.
+
+    Times of day may pass midnight. Dates with dots have the day first, and a year of four digits is followed
+    by the month. Day and month of other dates have the order in which times ascend, in the shorter record.
+    """
     import pandas as pd
 
-    for read in (pd.to_timedelta, pd.to_datetime):
+    texts = [re.sub(r"(?<=\d),(?=\d)", ".", text) for text in texts]
+    texts = [re.sub(r"(\d+)(:\d+:[\d.]+) ?([ap])m$", _of_day, text, flags=re.IGNORECASE) for text in texts]
+    has_hours = not any(re.fullmatch(r"\d+:\d+\.\d+", text) for text in texts)
+    texts = texts if has_hours else [f"0:{text}" for text in texts]
+    texts = [re.sub(r"^(\d+:\d+:\d+):(\d{3})$", r"\1.\2", text) for text in texts]
+    texts = [re.sub(r"(:\d+:\d+)(?=[^.:\d]*$)", r"\1.0", text) for text in texts]  # one form for all
+    date = re.search(r"(\d+)([-/.])\w+[-/.]\d", texts[0])
+    orders = [True, False]
+    if date and (date[2] == "." or len(date[1]) == 4):
+        orders = [date[2] == "."]
+    iso = partial(pd.to_datetime, format="ISO8601", utc=True)
+    ways = [iso if date else pd.to_timedelta, *(partial(pd.to_datetime, dayfirst=each) for each in orders)]
+    found = [np.full(len(texts), np.nan)]
+    for read in ways:
         with suppress(ValueError), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of dates in an unusual order
-            times = pd.Index(read([text.replace(",", ".") for text in texts]))
-            return np.asarray((times - times[0]).total_seconds())
-    return np.full(len(texts), np.nan)
+            times = pd.Index(read(texts, errors="coerce"))
+            found.append(np.asarray((times - times[0]).total_seconds()))
+        if read is ways[0] and not np.isnan(found[-1]).any():
+            break
+    seconds = min(
+        found, key=lambda own: (np.isnan(own).sum(), bool(np.any(np.diff(own) <= 0.0)), np.ptp(own))
+    )
+    turn = 86400.0 if has_hours else 3600.0
+    if not date:
+        seconds[1:] += turn * np.cumsum(np.diff(seconds) < -0.5 * turn)
+    return seconds
+
+
+def _of_day(found: re.Match[str]) -> str:
+    """A time of day with the hours of a day, from the hours before or after noon."""
+    return f"{int(found[1]) % 12 + 12 * (found[3].lower() == 'p')}{found[2]}"
 
 
 def number(cell: str, decimal: str | None) -> float:

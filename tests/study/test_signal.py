@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -295,6 +296,42 @@ def test_times_of_day_are_seconds_from_the_first(tmp_path: Path, form: str) -> N
     text = (tmp_path / "rig.csv").read_text().replace(",", ";").replace(".", ",")
     (tmp_path / "rig.csv").write_text(text.replace("01,05,2026", "01.05.2026"))
     assert read_signal(tmp_path / "rig.csv", decimal=",", **read).time.tolist() == found.time.tolist()
+
+
+#: Forms of dates and times, and their moments; fractions of zero are dropped where a form ends with a point.
+ACROSS_MIDNIGHT = {
+    "%Y-%m-%d %H:%M:%S.": "a workbook, or str(datetime)",
+    "%Y-%m-%dT%H:%M:%S.%fZ": "ISO 8601",
+    "%d.%m.%Y %H:%M:%S.%f": "the day first",
+    "%d.%m.%y %H:%M:%S.": "the day first, and two digits",
+    "%d/%m/%Y %H:%M:%S.": "the day first, by the shorter record",
+    "%m/%d/%Y %I:%M:%S.%f %p": "the month first",
+    "%H:%M:%S.": "times of day",
+    "%H:%M:%S.%f": "times of day with fractions",
+    "%I:%M:%S.%f PM": "half days",
+    "%M:%S.": "minutes",
+}
+
+
+@pytest.mark.parametrize("form", ACROSS_MIDNIGHT, ids=ACROSS_MIDNIGHT.values())
+@pytest.mark.parametrize("day", [1, 11, 12])
+def test_dates_and_times_pass_midnight(tmp_path: Path, form: str, day: int) -> None:
+    begin, rows = datetime(2026, 12, day, 23, 59, 50), []
+    for k in range(40):
+        at, load = begin + timedelta(seconds=0.5 * k), np.sin(2.0 * np.pi * k / 20)
+        cell = at.strftime(form + "%f").removesuffix(".000000") if form.endswith(".") else at.strftime(form)
+        cell = cell.replace("PM", "AM") if at.hour < 12 else cell
+        rows.append(f"{cell},{300.0 + 20.0 * load},{100.0 * load}")
+    (tmp_path / "rig.csv").write_text("\n".join(["clock,normal,tangential", *rows]))
+    found = read_signal(tmp_path / "rig.csv", time="clock", absolute=True, period=10.0)
+    np.testing.assert_allclose(found.time, 0.5 * np.arange(40), atol=1e-9)
+
+
+def test_a_time_that_is_none_is_named_with_forms_of_times(tmp_path: Path) -> None:
+    rows = ["2026-12-01 12:00:00,200,0", "2026-12-01 12:00:01,210,9", "2026-12-01 12:61:02,190,-9"]
+    (tmp_path / "rig.csv").write_text("\n".join(["time,normal,tangential", *rows]))
+    words = "line 4, time: found '2026-12-01 12:61:02'; allowed: a finite number, or times in all rows, such"
+    refused(words, read_signal, tmp_path / "rig.csv", time="time")
 
 
 def test_exchanged_columns_are_told(tmp_path: Path) -> None:
