@@ -182,19 +182,24 @@ def noise_of_mean(cycles: FloatArray) -> FloatArray:
     return np.asarray(np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles))))
 
 
-def drift(cycles: FloatArray) -> float:
+def drift(cycles: FloatArray, numbers: IndexArray, longest: float = 1) -> float:
     """Share of the period by which each of the cycles, (c, m, d), comes late; 0 for a single one.
 
-    The shift of the mean cycle with which the steps from cycle to cycle agree best, in the sense of least
-    squares, of the first three harmonics of columns over their `scatter`: the period is longer by so much.
+    The shift with which the steps from cycle to cycle agree best, in the sense of least squares, of the first
+    three harmonics of columns over their `scatter`: the period is longer by so much. What is shifted is the
+    mean of the cycles in a row. Steps count between cycles whose numbers, (c,), differ by up to ``longest``.
     """
-    size = scatter(cycles)
-    some = size > 0.0
-    if not some.any():
+    size, apart = scatter(cycles), np.diff(numbers)
+    some, near = size > 0.0, np.flatnonzero(apart <= longest)
+    if not some.any() or not near.size:
         return 0.0
-    means = (v.mean(axis=0)[:, some] / size[some] for v in (cycles, np.diff(cycles, axis=0)))
-    mean, step = (np.fft.rfft(v, axis=0)[1:4] for v in means)
-    slope = 2j * np.pi * np.arange(1, len(mean) + 1)[:, None] * mean
+    waves = np.fft.rfft(cycles[..., some] / size[some], axis=1)[:, 1:4]
+    rows = np.cumsum(apart > 1)  # the row of cycles that each cycle but the first is in
+    begins = np.flatnonzero(np.append(True, apart > 1))
+    means = np.add.reduceat(waves, begins, axis=0) / np.diff(begins, append=len(cycles))[:, None, None]
+    mean = 0.5 * (means[np.append(0, rows)[near]] + means[rows[near]])
+    slope = 2j * np.pi * np.arange(1, mean.shape[1] + 1)[:, None] * mean * apart[near, None, None]
+    step = np.diff(waves, axis=0)[near]
     steepness, change = (np.abs(slope) ** 2).sum(), (np.abs(step) ** 2).sum()
     if steepness <= change * np.finfo(float).eps:  # the mean cycle does not move
         return 0.0

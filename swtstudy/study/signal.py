@@ -91,12 +91,18 @@ class Signal:
         return np.flatnonzero(steps > max(0.25 * self.period, cycles.PAUSE * float(np.median(steps))))
 
     @cached_property
-    def known(self) -> IndexArray:
-        """The cycles without a gap, by their numbers from 0 on; all if each has one."""
+    def whole(self) -> IndexArray:
+        """The cycles without a gap, by their numbers from 0 on."""
         ends = (self.time[np.stack([self.gaps, self.gaps + 1])] - self.time[0]) / self.period
-        number = np.arange(self.count)
-        has_gap = ((ends[0] < number[:, None] + 1.0) & (ends[1] > number[:, None])).any(axis=1)
-        return number if has_gap.all() else np.flatnonzero(~has_gap)
+        begins, ends = [0, *np.ceil(ends[1])], [*np.floor(ends[0]), self.count]  # of the cycles between gaps
+        pairs = zip(begins, np.minimum(ends, self.count), strict=True)
+        return np.concatenate([np.arange(*pair, dtype=np.intp) for pair in pairs])
+
+    @cached_property
+    def known(self) -> IndexArray:
+        """The cycles without a gap; if each has one, those that have samples."""
+        sampled = np.unique((self.phase / (2.0 * np.pi) + ROUNDING).astype(np.intp))
+        return self.whole if self.whole.size else np.minimum(sampled, self.count - 1)
 
     @cached_property
     def cycles(self) -> FloatArray:
@@ -419,11 +425,13 @@ def _better(signal: Signal, key: str) -> str:
     guesses = [signal.period, *([whole / times] if times else [])]
     guesses += [signal.period * times for times in range(2, min(signal.count // 2, MOST_TIMES) + 1)]
     for period in guesses:
-        for _ in range(CORRECTIONS):
+        for correction in range(CORRECTIONS):
             if not 2.0 * signal.step <= period <= 0.5 * whole * (1.0 + ROUNDING):
                 break
             other = replace(signal, period=period, count=int(whole / period + ROUNDING))
-            period *= 1.0 + cycles.drift(other.cycles)
+            # Neighbours first: a drift across a gap is known but for whole periods.
+            longest = np.diff(other.known).max(initial=1) ** min(1.0, 2 * correction / CORRECTIONS)
+            period *= 1.0 + cycles.drift(other.cycles, other.known, longest)
         else:
             if other.unlike.max() < min(UNLIKE, ALIKE * signal.unlike.max()):
                 length = f"frequency = {1.0 / other.period:.7g}"
@@ -438,7 +446,7 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
     """
     values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
     if gaps := len(signal.gaps):
-        at, out = signal.gaps[0], count - len(signal.known)
+        at, out = signal.gaps[0], (count - signal.whole.size) * bool(signal.whole.size)
         found = f"a gap of {steps[at]:.4g} in the time, at {signal.time[at]:.4g}"
         found += f" and {gaps - 1} more" * (gaps > 1) + f", where most steps are {np.median(steps):.4g}"
         left = f"{out} of {count} cycles are left out" if out else "the loads there are unknown"
@@ -486,10 +494,13 @@ def _on_stick_zone(signal: Signal) -> Iterator[str]:
 
 def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
     """A line on cycles that drift, that are of a start-up, or that differ in another way."""
-    count, shift, unlike = signal.count, cycles.drift(signal.cycles), signal.unlike
+    shift, unlike = cycles.drift(signal.cycles, signal.known), signal.unlike
+    is_gap = np.diff(signal.known, prepend=-2, append=signal.count + 1) > 1
+    count = int(np.diff(np.flatnonzero(is_gap)).max())  # in a row
     better = _better(signal, key) if not kept and unlike.max() > UNLIKE else ""
-    if abs(shift) * count > MOST_DRIFT:
-        found = f"its {count} cycles come {abs(shift) * count:.1%} of a period"
+    if abs(shift) * count > MOST_DRIFT and not (better and signal.gaps.size):
+        found = f"its {count} cycles{' between gaps' * (count < signal.count)} come {abs(shift) * count:.1%}"
+        found += " of a period"
         late, right = "late" if shift > 0.0 else "early", signal.period * (1.0 + shift)
         yield f"{found} {late} altogether; is the period {right:.7g} and not {signal.period:.7g}?"
     elif kept:
@@ -503,7 +514,7 @@ def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
         column, ends, (first, last, mean), unsettled = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"
         found = f"the first {each} a {NAMES[column]} amplitude of {first:.4g}, the last of {last:.4g}"
-        out = f"skip_cycles = {unsettled} leaves a start-up out; " if unsettled else ""
+        out = f"skip_cycles = {signal.known[unsettled]} leaves a start-up out; " if unsettled else ""
         out += "a block with keep_cycles = true runs all cycles"
         yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
     elif unlike.max() > UNLIKE:

@@ -400,6 +400,61 @@ def test_cycles_with_a_gap_are_left_out(tmp_path: Path) -> None:
     assert signal.mean_normal == pytest.approx(300.0, abs=1e-9)
 
 
+def bursts(path: Path, at: list[float], length: float, frequency: float = 1.0, grow: float = 0.0) -> None:
+    """Write cycles with noise that are recorded from some times on, 20 samples in a unit of time."""
+    single = np.arange(round(20 * length)) / 20.0
+    time = np.concatenate([begin + single for begin in at])
+    phase = 2.0 * np.pi * frequency * time
+    grown = np.repeat([1.0 - grow * 0.5**k for k in range(len(at))], len(single))
+    loads = np.stack([300.0 + 20.0 * np.sin(phase), 100.0 * grown * np.sin(phase)], axis=1)
+    loads += np.random.default_rng(3).normal(scale=0.5, size=loads.shape)
+    write(path, np.column_stack([time, loads]), "time,normal,tangential")
+
+
+def test_bursts_of_the_right_period_do_not_drift(tmp_path: Path) -> None:
+    """Noise shifts three cycles by so little that the many cycles between bursts must not count."""
+    bursts(tmp_path / "rig.csv", [1e4 * k for k in range(30)], 3.4)
+    (line,) = told_of(tmp_path / "rig.csv", time="time", absolute=True, period=1.0)
+    assert "cycles are left out" in line
+
+
+@pytest.mark.parametrize("frequency", [1.01, 1.0003, 1.00003])
+def test_bursts_that_do_not_fit_together_are_told_with_their_period(tmp_path: Path, frequency: float) -> None:
+    """Within a burst the phase changes by a tenth of a cycle, or far less than noise tells."""
+    bursts(tmp_path / "rig.csv", [1000.0 * k for k in range(20)], 10.2, frequency)
+    given = {"time": "time", "absolute": True}
+    try:
+        said = " ".join(told_of(tmp_path / "rig.csv", frequency=1.0, **given))
+    except swtstudy.StudyError as error:
+        said = str(error)
+    found = float(re.search("such as frequency = ([0-9.]+[0-9])", said)[1])
+    assert found == pytest.approx(frequency, abs=1e-6)  # a fiftieth of a cycle in the whole record
+    (line,) = told_of(tmp_path / "rig.csv", frequency=found, **given)
+    assert "cycles are left out" in line
+
+
+def test_a_start_up_in_bursts_is_no_drift(tmp_path: Path) -> None:
+    """The cycles to skip are counted with the cycles in gaps."""
+    bursts(tmp_path / "rig.csv", [100.0 * k for k in range(20)], 10.2, grow=0.5)
+    given = {"time": "time", "absolute": True, "period": 1.0}
+    _, line = told_of(tmp_path / "rig.csv", **given)
+    assert "have a tangential amplitude of" in line
+    skip = int(re.search("skip_cycles = ([0-9]+) leaves", line)[1])
+    assert skip % 100 == 0
+    (line,) = told_of(tmp_path / "rig.csv", skip_cycles=skip, **given)
+    assert "cycles are left out" in line
+
+
+def test_a_gap_of_any_length_takes_no_room(tmp_path: Path) -> None:
+    given = {"time": "time", "absolute": True, "period": 1.0}
+    bursts(tmp_path / "rig.csv", [0.0, 1e12], 10.2)
+    (line,) = told_of(tmp_path / "rig.csv", **given)
+    assert line.endswith(": 999999999990 of 1000000000010 cycles are left out")
+    bursts(tmp_path / "rig.csv", [0.0, 1e12], 0.8)
+    (line,) = told_of(tmp_path / "rig.csv", **given)
+    assert line.endswith("the loads there are unknown")
+
+
 def test_by_a_period_the_last_sample_is_of_the_next_cycle(tmp_path: Path) -> None:
     closed = np.array([[0.0, 200, 0], [0.25, 260, 60], [0.5, 200, 0], [0.75, 200, -60], [1.0, 200, 0]])
     write(tmp_path / "closed.csv", closed, "time,normal,tangential")
