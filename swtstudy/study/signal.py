@@ -308,9 +308,9 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.
     despike
-        Whether spikes are taken out: a single sample apart from the samples beside it takes the value on the
-        line between them, and a sample apart from all other cycles takes their median; without it a warning
-        names the spikes.
+        Whether spikes are taken out: a sample, or a few in a row, apart from the samples beside them take the
+        values on the line between these, and samples apart from all other cycles take their median; without
+        it a warning names the spikes.
 
     Returns
     -------

@@ -502,6 +502,59 @@ def test_a_spike_anywhere_leaves_the_samples_beside_it(shape: str, cycles: int, 
         assert abs(found[place] - clean[place]) < 15.0
 
 
+def waves(cycles: int, samples: int = 100, shape: str = "sine") -> np.ndarray:
+    """Cycles of a tangential load of 60 N with noise."""
+    turn = np.mod(np.arange(cycles * samples) / samples, 1.0)
+    load = {"sine": np.sin(2.0 * np.pi * turn), "square": np.where(turn < 0.5, 1.0, -1.0)}[shape]
+    return 60.0 * load + np.random.default_rng(3).normal(scale=0.3, size=len(turn))
+
+
+@pytest.mark.parametrize("width", [2, 3, 5])
+@pytest.mark.parametrize("cycles", [1, 2, 3, 20])
+@pytest.mark.parametrize("place", [25, 65])  # at a tip, and at a side
+def test_a_spike_of_several_samples_is_taken_out(tmp_path: Path, cycles: int, width: int, place: int) -> None:
+    clean = waves(cycles)
+    spoilt = clean.copy()
+    spoilt[place : place + width] += 25.0
+    write(tmp_path / "rig.csv", np.stack([0.0 * clean + 500.0, spoilt], axis=1), "normal,tangential")
+    given = {"recorded_cycles": cycles, "absolute": True}
+    words = f"tangential .* in cycle 1, line {place + 2} of the file, .*, and {width - 1} more: a spike"
+    assert re.search(words, " ".join(told_of(tmp_path / "rig.csv", **given)))
+    with pytest.warns(UserWarning, match=f"rig: {width} spikes replaced"):
+        found = read_signal(tmp_path / "rig.csv", despike=True, **given).values[:, 1]
+    assert np.flatnonzero(found != spoilt).tolist() == [*range(place, place + width)]
+    np.testing.assert_allclose(found, clean, atol=2.0)
+
+
+#: Loads that are no spikes, of so many cycles: the shape, samples, and what is added to them.
+NO_SPIKES = {
+    "a pulse of a twelfth": (1, "sine", {(20, 28): 30.0}),
+    "a swing after a step": (1, "square", {(0, 3): 50.0, (3, 7): -15.0, (50, 53): -50.0, (53, 57): 15.0}),
+    "a pulse of both cycles": (2, "sine", {(25 + k, 28 + k): 30.0 for k in (0, 100)}),
+    "a pulse of every fourth cycle": (24, "sine", {(25 + k, 28 + k): 30.0 for k in range(0, 2400, 400)}),
+    "a pulse that comes late": (20, "sine", {(25 + k, 28 + k): 30.0 for k in (*range(0, 1900, 100), 1903)}),
+    "a half-cycle of its own": (20, "square", {(1000, 1050): 30.0}),
+    "a cycle of its own": (
+        20,
+        "sine",
+        {(k, k + 1): 30.0 * np.sin(0.02 * np.pi * k) for k in range(300, 400)},
+    ),
+    "a small pulse": (20, "sine", {(25, 28): 10.0}),
+}
+
+
+@pytest.mark.parametrize(("cycles", "shape", "added"), NO_SPIKES.values(), ids=NO_SPIKES)
+def test_loads_of_several_samples_are_no_spikes(
+    tmp_path: Path, cycles: int, shape: str, added: dict[tuple[int, int], float]
+) -> None:
+    load = waves(cycles, shape=shape)
+    for rows, height in added.items():
+        load[slice(*rows)] += height
+    write(tmp_path / "rig.csv", np.stack([0.0 * load + 500.0, load], axis=1), "normal,tangential")
+    said = told_of(tmp_path / "rig.csv", recorded_cycles=cycles, absolute=True)
+    assert not [line for line in said if "spike" in line]
+
+
 def test_sharp_tips_steps_and_pulses_of_every_cycle_are_no_spikes(tmp_path: Path) -> None:
     turn = np.arange(64) / 64
     triangle = 60.0 * np.abs(4.0 * turn - 2.0) - 60.0
@@ -513,6 +566,7 @@ def test_sharp_tips_steps_and_pulses_of_every_cycle_are_no_spikes(tmp_path: Path
         ("coarse", coarse, 1),
         ("step", step, 1),
         ("pulses", pulses, 4),
+        ("two pulses", pulses[:32], 2),
     ):
         write(tmp_path / f"{name}.csv", np.stack([500.0 + 0.0 * load, load], axis=1), "normal,tangential")
         read_signal(tmp_path / f"{name}.csv", recorded_cycles=cycles, absolute=True)

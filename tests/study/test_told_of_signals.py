@@ -102,11 +102,13 @@ read(spoilt(wave(150, 50, 0.3), *PAIR), recorded_cycles=3, despike=True)
 » 3 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential) » 9996.66426
 » 2 spikes replaced, tangential 125.704 in cycle 2, line 72 of the file, by 35.21, and 1 more
 read(spoilt(wave(100, 50, 0.3), *PAIR), recorded_cycles=2, despike=True)
-» 2 cycles of 50 samples; the cycles scatter by 0.29 (normal), 13 (tangential) » 10090.2901
+» 2 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential) » 9996.84194
+» 2 spikes replaced, tangential 125.704 in cycle 2, line 72 of the file, by 34.48, and 1 more
 read(spoilt(wave(150, 50, 1e-3), (70, 1, 55.0), (71, 1, 55.0)), recorded_cycles=3, despike=True)
-» 3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 6.4 (tangential) » 10036.6564
-read(spoilt(wave(150, 50, 1e-3), (70, 1, 65.0), (71, 1, 65.0)), recorded_cycles=3, despike=True)
-» 3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 7.5 (tangential) » 10043.3231
+» 3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 0.00089 (tangential) » 9999.98888
+» 2 spikes replaced, tangential 90.2686 in cycle 2, line 72 of the file, by 35.27, and 1 more
+read(spoilt(wave(150, 50, 1e-3), (70, 1, 11.0), (71, 1, 11.0)), recorded_cycles=3, despike=True)
+» 3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 1.3 (tangential) » 10007.3231
 read(wave(160, 40, 0.1), period=39)
 » 4 cycles of 39 samples; the cycles scatter by 0.85 (normal), 8.5 (tangential) » 7824.14259
 » its 4 cycles come 9.8% of a period late altogether; is the period 39.95282 and not 39?
