@@ -30,6 +30,7 @@ from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
+    Mistake,
     Report,
     StudyError,
     literal,
@@ -50,6 +51,8 @@ LIFE, RUNOUT = "life", "runout"
 ALIASES = {LIFE: LIFE} | dict.fromkeys((RUNOUT, "run_out", "run-out", "run out", "runouts"), RUNOUT)
 #: Marks of a run-out, and of a test that ended with a crack.
 YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "", "nan")
+#: What units of thousands or millions of load cycles begin with.
+PREFIXES = ("k", "K", "M", "mega", "mio", "thousand", "million")
 #: Likeness of a column's name to a parameter's name from which it is a misspelling (difflib).
 MISSPELT = 0.8
 #: log10 of a life that counts as unbounded, for tests that survived.
@@ -410,6 +413,8 @@ def _read(
                 if key != mistake.key:
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
+    if table and (unit := table.strange_unit(LIFE)).startswith(PREFIXES):
+        report.append(Mistake("", f"{LIFE} in {unit}", "load cycles, not thousands or millions", place))
     if table and isinstance(grid, PhysicalGrid):
         report += wrong_units(table, kinds_of(name for name in columns if name in AXES), grid.labels)
     report.refuse()

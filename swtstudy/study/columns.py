@@ -109,7 +109,8 @@ class UserTable:
             data = read_file(path, LARGEST_TABLE)
         except OSError as error:
             raise self.refused("", reason_of(error), _READABLE) from None
-        text = self._sheet(data) if data.startswith(b"PK\x03\x04") else self._text(data)
+        is_sheet = data.startswith(b"PK\x03\x04")
+        text = self._sheet(data) if is_sheet else self._text(data)
         separator, above = self._found_header(text)
         self.decimal = self.form.decimal
         if separator == self.decimal == ",":
@@ -138,7 +139,11 @@ class UserTable:
                 allowed += "; or say separator and decimal" * self.has_keys
                 raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
             own += [""] * (width - len(own))
-        if self.decimal is None:
+        if is_sheet and self.decimal != ".":
+            if self._without_commas(needed) and self.decimal is None:
+                notices.append("numbers with a comma are read with decimal = ','")
+            self.decimal = "."
+        elif self.decimal is None:
             self.decimal = "," if separator != "," and self._has_commas(needed) else "."
             if self.decimal == ",":
                 notices.append("numbers with a comma are read with decimal = ','")
@@ -157,6 +162,21 @@ class UserTable:
             if comma or point:
                 return not point
         return False
+
+    def _without_commas(self, needed: Sequence[int]) -> bool:
+        """Return whether texts of a workbook are numbers with a decimal comma; they get a point.
+
+        All other numbers of a workbook have a point. 1,000 has a decimal comma if another comma parts no
+        thousands, or if no needed number has a point.
+        """
+        numbers = [cell for _, own in self.cells for cell in own if "," in cell and _is_number(cell)]
+        thousands = (re.fullmatch(r"[-+]?[1-9]\d{0,2}(,\d{3})+", cell) for cell in numbers)
+        if not numbers or (self.decimal is None and all(thousands) and not self._has_commas(needed)):
+            return False
+        known = {*numbers}
+        for _, own in self.cells:
+            own[:] = [cell.replace(",", ".") if cell in known else cell for cell in own]
+        return True
 
     def column(self, name: str) -> int:
         """The place of a column."""
@@ -190,6 +210,12 @@ class UserTable:
                     hint = COMMA_HINT
                 elif ":" in text:
                     hint = CLOCK_HINT
+                elif re.fullmatch(r"[-+]?[\d.]+ ?[^\W\d]+[²³23]?", text):
+                    hint = "; units stand in the header or in a row of units, not in cells"
+                elif row and self._named(self.cells[row][1])[: len(self.headers)] == self.headers:
+                    hint = "; the header again: each block in a file of its own"
+                elif row and not np.isfinite(values[row:]).any():
+                    hint = f"; a file of the rows above line {self.cells[row][0]}"
                 elif row == 0:
                     hint = "; lines above the header are skip_rows, a row of units is units_row = true"
                 if hint not in hints:
@@ -416,13 +442,19 @@ def _of_day(found: re.Match[str]) -> str:
 
 
 def number(cell: str, decimal: str | None) -> float:
-    """The number in a cell; NaN if there is none, or a point of thousands beside a decimal comma."""
+    """The number in a cell; NaN if there is none, or a point of thousands beside a decimal comma.
+
+    Fortran writes exponents with a D, spreadsheets may write a minus that is longer than a hyphen.
+    """
+    if decimal == ",":
+        cell = cell.replace(".", "_").replace(",", ".")
     try:
-        if decimal == ",":
-            cell = cell.replace(".", "_").replace(",", ".")
         return plain_float(cell)
     except ValueError:
-        return math.nan
+        cell = re.sub(r"(\.\d*)[dD]([+-]?\d+)$", r"\1e\2", cell.replace("\u2212", "-"))
+        with suppress(ValueError):
+            return plain_float(cell)
+    return math.nan
 
 
 def read_columns(

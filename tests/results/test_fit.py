@@ -424,6 +424,15 @@ def test_tests_in_another_unit_are_refused(rig, tmp_path):
     refused(words, swtstudy.fit, rig[0], path)
 
 
+@pytest.mark.filterwarnings("ignore:.*read as units")
+@pytest.mark.parametrize("unit", ["kcycles", "[Mcycles]", "thousands"])
+def test_lives_in_thousands_of_cycles_are_refused(rig, tmp_path, unit):
+    path = tmp_path / "tests.csv"
+    path.write_text(f"tangential_force_amplitude,life\nN,{unit}\n30,100\n60,10\n")
+    words = rf"tests.csv: found life in {unit.strip('[]')}; allowed: load cycles, not thousands"
+    refused(words, swtstudy.fit, rig[0], path)
+
+
 def test_mistakes_in_a_file_of_tests_name_it(rig, tmp_path):
     path = tmp_path / "tests.csv"
     path.write_text("normal_forc,tangential_force_amplitude,life\n200,60,1e6\n200,80,1e5\n")

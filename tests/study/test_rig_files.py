@@ -63,6 +63,12 @@ READ = {
         'columns = { normal = "Fn [kN]", tangential = "Ft" }\nscale = { normal = 1000 }',
         "",
     ),
+    "exponents of Fortran": (
+        table("time,normal,tangential", rows=[(t, f"{n / 1000:.5f}D+03", f"{q:.1f}d0") for t, n, q in ROWS]),
+        "",
+        "",
+    ),
+    "a long minus": (table("time,normal,tangential").replace("-", "\u2212"), "", ""),
     "the other sign": (
         table("time,normal,tangential", rows=[(t, -n, q) for t, n, q in ROWS]),
         "scale = { normal = -1 }",
@@ -187,6 +193,31 @@ def test_texts_with_decimal_commas_in_a_workbook_are_numbers(tmp_path: Path) -> 
     with pytest.warns(UserWarning, match="numbers with a comma are read with decimal = ','"):
         found = read_signal(tmp_path / "rig.xlsx", absolute=True)
     assert found.values.tolist() == [[200.5, 0.0], [210.5, 60.0], [200.5, -60.0]]
+
+
+@pytest.mark.parametrize("decimal", [None, ","])
+def test_texts_with_decimal_commas_beside_numbers_are_numbers(tmp_path: Path, decimal: str | None) -> None:
+    """A number of a workbook has a point, whatever its texts have; 1,000 may be a thousand."""
+    openpyxl = pytest.importorskip("openpyxl")
+    book, given = openpyxl.Workbook(), {"time": "time", "frequency": 1, "absolute": True}
+    for row in (
+        ["time", "normal", "tangential"],
+        [0.0, "200,500", 0],
+        [0.25, "210,500", 60],
+        [0.75, 190, -60],
+    ):
+        book.active.append(row)
+    book.save(tmp_path / "rig.xlsx")
+    if decimal:
+        found = read_signal(tmp_path / "rig.xlsx", decimal=decimal, **given)
+        assert found.values.tolist() == [[200.5, 0.0], [210.5, 60.0], [190.0, -60.0]]
+        return
+    refused("'200,500'; allowed: .* decimal = ',', if", read_signal, tmp_path / "rig.xlsx", **given)
+    book.active["C4"] = "-60,5"
+    book.save(tmp_path / "rig.xlsx")
+    with pytest.warns(UserWarning, match="numbers with a comma are read with decimal = ','"):
+        found = read_signal(tmp_path / "rig.xlsx", **given)
+    assert found.values.tolist() == [[200.5, 0.0], [210.5, 60.0], [190.0, -60.5]]
 
 
 def test_messages_name_the_sheets_of_a_workbook(tmp_path: Path) -> None:
