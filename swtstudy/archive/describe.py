@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -37,8 +37,8 @@ from swtstudy.vocabulary.wording import (
     with_rad,
 )
 
-#: Sizes of contacts at rest.
-AT_REST = ("normal_force", "contact_radius", "peak_pressure")
+#: Sizes of contacts at rest that tell a wrong unit at a glance, and their kinds.
+AT_REST = {"normal_force": "force", "contact_radius": "length", "peak_pressure": "stress"}
 #: Lives over more critical distances are a range.
 _DISTANCES = 3
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -206,13 +206,12 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     yield from ((label, words) for label, lines in several.items() for words in lines if words)
 
 
-def rest_words(dataset: xr.Dataset) -> str:
-    """Sizes of real contacts at rest, which tell a wrong unit at a glance; empty without units."""
+def rest_words(sizes: Mapping[Any, xr.DataArray]) -> str:
+    """Sizes of real contacts at rest, by name as in results, in words; empty without units."""
     said = []
-    for name in AT_REST if has_units(dataset) else ():
-        if name in dataset:
-            ends = numbers_words([float(dataset[name].min()), float(dataset[name].max())])
-            said.append(f"{name} {' to '.join(dict.fromkeys(ends))}{unit_of(dataset[name])}")
+    for name in AT_REST if all(name in sizes for name in AT_REST) else ():
+        ends = numbers_words([float(sizes[name].min()), float(sizes[name].max())])
+        said.append(f"{name} {' to '.join(dict.fromkeys(ends))}{unit_of(sizes[name])}")
     return ", ".join(said)
 
 

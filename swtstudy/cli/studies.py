@@ -18,14 +18,13 @@ from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Report, literal, refused
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
-from swtstudy.vocabulary.wording import duration, number_of, numbers_words, unit_words
+from swtstudy.vocabulary.wording import duration, number_of, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.points.grid import Grid
     from swtstudy.study.definition import Study
 
-#: Sizes of a contact at rest, which tell a wrong unit at a glance, and their kinds; of so many contacts.
-AT_REST = {"normal_force": "force", "contact_radius": "length", "peak_pressure": "stress"}
+#: Sizes of so many contacts at rest are said at most.
 MOST_CONTACTS = 10_000
 
 
@@ -86,7 +85,7 @@ def validate(studies: tuple[str, ...]) -> None:
         with report:
             archive_paths([source], "")
             terminal.say(words, 2)
-            if at_rest := rest_words(grid):
+            if at_rest := rest_of(grid):
                 terminal.say(f"contact at rest: {at_rest}", 2)
             for line in foreseen_lines(grid):
                 click.echo(f"validity: {line}", err=True)
@@ -127,7 +126,7 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, st
     count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
     panels = f" in {count} panels" if count > 1 else ""
     yield "prescribed", grid.control.name
-    if at_rest := rest_words(grid):
+    if at_rest := rest_of(grid):
         yield "contact at rest", at_rest
     yield from (("validity", line) for line in foreseen_lines(grid))
     yield "archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"
@@ -153,18 +152,18 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, st
         yield "time", f"about {wall} with {workers} workers ({each})"
 
 
-def rest_words(grid: Grid) -> str:
+def rest_of(grid: Grid) -> str:
     """Sizes of real contacts at rest, in words; empty without units, and for very many contacts."""
+    import xarray as xr
+
+    from swtstudy.archive.describe import AT_REST, rest_words
     from swtstudy.study.units.grid import PhysicalGrid
 
     if not isinstance(grid, PhysicalGrid) or grid.at_rest.size > MOST_CONTACTS:
         return ""
-    sizes = []
-    for name, kind in AT_REST.items():
-        found = grid.each(attrgetter(name)).values
-        ends = dict.fromkeys(numbers_words([found.min(), found.max()]))
-        sizes.append(f"{name} {' to '.join(ends)} {grid.labels.label(kind)}".rstrip())
-    return ", ".join(sizes)
+    found = {name: grid.each(attrgetter(name)) for name in AT_REST}
+    units = {name: {"units": grid.labels.label(kind)} for name, kind in AT_REST.items()}
+    return rest_words({name: xr.DataArray(found[name], attrs=units[name]) for name in AT_REST})
 
 
 @click.command("list")
