@@ -18,7 +18,8 @@ import xarray as xr
 from swtstudy.points.validity import extrapolated
 from swtstudy.points.values import read_exact
 from swtstudy.results.history import TINY, criterion_of_history, longest_chord, swt_of_history
-from swtstudy.study.columns import UserTable, read_table, unknown_names, wrong_unit
+from swtstudy.study.column_units import unit_said, wrong_unit
+from swtstudy.study.columns import UserTable, read_table, unknown_names
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.study.units.grid import ContactDetails
@@ -162,7 +163,7 @@ def _unit_of(table: UserTable, names: Iterable[str]) -> str:
     sizes: dict[str, float] = {}
     for name in names:
         report += wrong_unit(table, name, "stress", "")
-        if (unit := table.unit(name, "stress")[0]) in known:
+        if (unit := unit_said(table, name, "stress")[0]) in known:
             sizes[name] = known[unit] / abs(scale.get(name, 1.0))
     report.refuse()
     if not sizes or all(scale.get(name) == 1.0 for name in names):
@@ -173,7 +174,7 @@ def _unit_of(table: UserTable, names: Iterable[str]) -> str:
             f"{literal(table.form.header(name))} times {scale.get(name, 1):g}" for name in (least, largest)
         )
         raise refused("scale", found, "factors that give one unit of all components", table.source)
-    units = [table.unit(least, "stress")[0], *known]
+    units = [unit_said(table, least, "stress")[0], *known]
     return next((unit for unit in units if math.isclose(known[unit], sizes[least])), "")
 
 

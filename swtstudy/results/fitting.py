@@ -22,7 +22,8 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.solve import margins, solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
-from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
+from swtstudy.study.column_units import strange_unit, wrong_units
+from swtstudy.study.columns import UserTable, by_aliases, number, read_table
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.rows import kinds_of, with_replaced
@@ -413,7 +414,7 @@ def _read(
                 if key != mistake.key:
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
-    if table and (unit := table.strange_unit(LIFE)).startswith(PREFIXES):
+    if table and (unit := strange_unit(table, LIFE)).startswith(PREFIXES):
         report.append(Mistake("", f"{LIFE} in {unit}", "load cycles, not thousands or millions", place))
     if table and isinstance(grid, PhysicalGrid):
         report += wrong_units(table, kinds_of(name for name in columns if name in AXES), grid.labels)

@@ -18,8 +18,9 @@ from types import MappingProxyType
 import numpy as np
 
 from swtstudy.points.reading import LONGEST_AXIS
+from swtstudy.study.column_units import different_units, wrong_units
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.study.units.rows import KNOWN, PER_LENGTH, UNIT_KINDS, Units, likely_units, unit_factor
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
@@ -241,37 +242,10 @@ class UserTable:
         out = {*lines}
         self.cells = [(line, row) for line, row in self.cells if line not in out]
 
-    def unit(self, name: str, kind: str) -> tuple[str, str]:
-        """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
-
-        In a row of units or in brackets a unit of any kind counts, also one that is written in another way,
-        elsewhere one of the kind asked for.
-        """
+    def said_of(self, name: str) -> tuple[str, str]:
+        """The header of a column, and its cell in the row of units."""
         column = self.column(name)
-        header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
-        texts = [cell.strip("[]() "), *map(str.strip, re.findall(r"[\[(]([^\[\]()]+)[\])]", header))]
-        for text in texts:
-            kinds = [each for each, known in KNOWN.items() if text in known]
-            if kinds:
-                return text, kind if kind in kinds else kinds[0]
-        for text in texts:
-            likely = [(unit, each) for each in UNIT_KINDS for unit in likely_units(each, text)]
-            if len(likely) == 1:
-                return likely[0]
-        for text in (cell, header):
-            words = re.findall(r"[A-Za-zµμ]+/[A-Za-zµμ]+$", text) + re.findall(r"[A-Za-zµμ]+", text)[-1:]
-            for each in (PER_LENGTH, "force") if kind in (PER_LENGTH, "force") else (kind,):
-                for word in (word for word in words if word in KNOWN[each] and word != "in"):
-                    return word, each
-        return "", kind
-
-    def strange_unit(self, name: str) -> str:
-        """The cell in the row of units, or the text in square brackets in the header, of a column."""
-        column = self.column(name)
-        cell = (self.units[column : column + 1] or [""])[0].strip("[]() ")
-        bracket = re.search(r"\[([^\[\]]+)\]", self.headers[column])
-        text = cell or (bracket[1].strip() if bracket else "")
-        return text if any(map(str.isalpha, text)) else ""
+        return self.headers[column], (self.units[column : column + 1] or [""])[0]
 
     def refused(self, place: str, found: str, allowed: str) -> StudyError:
         """The error of a mistake at a place in the file."""
@@ -508,7 +482,7 @@ def read_columns(
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
         own = {name: kind for name, kind in kinds.items() if name in names}
-        report += wrong_units(table, own, units) if units else _different_units(table, own)
+        report += wrong_units(table, own, units) if units else different_units(table, own)
         empty = table.incomplete(names) if gaps else []
         if 0 < len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
@@ -537,72 +511,6 @@ def by_aliases(headers: Sequence[str], aliases: Mapping[str, str]) -> list[str]:
         other if other and other not in headers and meant.count(other) == 1 else header
         for header, other in zip(headers, meant, strict=True)
     ]
-
-
-def wrong_units(table: UserTable, kinds: Mapping[str, str | None], units: Units) -> list[Mistake]:
-    """The mistakes of columns that have a kind, in other units than the study's; see `wrong_unit`."""
-    labels = {
-        name: (kind, "rad" if kind == "angle" else units.label(kind)) for name, kind in kinds.items() if kind
-    }
-    return [each for name, own in labels.items() for each in wrong_unit(table, name, *own)]
-
-
-def _different_units(table: UserTable, kinds: Mapping[str, str]) -> list[Mistake]:
-    """The mistake of columns of one kind in different units, where no study says which unit is right."""
-    scale, first = table.form.scale, dict[str, tuple[str, str]]()
-    for name, kind in kinds.items():
-        unit, own_kind = table.unit(name, kind)
-        other, label = first.setdefault(own_kind, (name, unit)) if unit else (name, "")
-        if not {name, other} & {*scale} and (factor := unit_factor(own_kind, unit, label)) != 1.0:
-            found = f"{literal(table.form.header(name))} in {unit} beside {other} in {label}"
-            return [Mistake("", found, f"scale = {{ {name} = {factor:g} }}: one unit for both", table.source)]
-    return []
-
-
-#: Other kinds that a number times the column may make the right one, and the factor.
-_WAYS = {
-    ("force", PER_LENGTH): "the length of the contact",
-    (PER_LENGTH, "force"): "1 over the length of the contact; or contact_length, with which loads are forces",
-    ("stress", "strain"): "Young's modulus times the unit of the strain",
-    ("stress", "force"): "1 over the area of the section",
-    **{(kind, "voltage"): "what a volt stands for" for kind in ("length", "force", PER_LENGTH, "stress")},
-}
-
-
-def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
-    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way.
-
-    A unit that is not known is told.
-    """
-    kind = PER_LENGTH if kind == "force" and label in KNOWN[PER_LENGTH] else kind
-    column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
-    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
-    way = _WAYS.get((kind, own_kind), "")
-    if label and own is None and not unit and (strange := table.strange_unit(name)):
-        settled = f"; scale = {{ {name} = 1 }} says so" * table.has_keys
-        words = f"the unit {strange} of {column} is not known: it is read as {label}{settled}"
-        warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=5)
-    if own_kind != kind and way and own is not None:
-        return []
-    if own_kind != kind:
-        found = f"{column} in {unit} as {name}, which is {_one(kind)}"
-        allowed = f"a column with {_one(kind)}, not {_one(own_kind)}, "
-        allowed += f"or scale = {{ {name} = … }}, {way}" if way and table.has_keys else "whatever its scale"
-    elif factor == 1.0 or (own is not None and not math.isclose(abs(own) * factor, 1.0)):
-        return []
-    else:
-        study = "angles are" if kind == "angle" else f"[units] has {kind}"
-        found = f"{column} in {unit} as {name}, while {study} in {label}"
-        found += "" if own is None else f", and scale has {name} = {own:g}"
-        allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
-        if not table.has_keys:
-            allowed = f"a column in {label}: its values times {factor:g}"
-    return [Mistake("", found, allowed, table.source)]
-
-
-def _one(kind: str) -> str:
-    """A kind with its article."""
-    return f"an {kind}" if kind == "angle" else f"a {kind}"
 
 
 def read_table(

@@ -19,7 +19,8 @@ import numpy as np
 from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
 from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
 from swtstudy.points.values import Value, as_number, read_value
-from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
+from swtstudy.study.column_units import wrong_units
+from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names
 from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter

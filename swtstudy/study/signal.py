@@ -17,6 +17,7 @@ from swtstudy.solver.load_path import HIGHEST_ORDER, LoadPath, Loop, checked_nam
 from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import SignalTable, with_keys
+from swtstudy.study.spikes import spikes
 from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
@@ -597,7 +598,7 @@ def _range_left_out(signal: Signal) -> FloatArray:
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:
     """The values, spikes replaced by the values that other samples suggest; tell that, or propose it."""
     time, values = signal.time, signal.values
-    out, usual = cycles.spikes(time, values, signal.period, signal.count, signal.known)
+    out, usual = spikes(time, values, signal.period, signal.count, signal.known)
     rows, columns = np.nonzero(out)
     if not rows.size:
         return values
