@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from swtstudy.solver.load_path import LoadPath as LoadPath
     from swtstudy.solver.table import TabulatedProfile as TabulatedProfile
     from swtstudy.study.definition import Study as Study
-    from swtstudy.study.signal import read_signal as read_signal
+    from swtstudy.study.record import read_signal as read_signal
     from swtstudy.study.trace import read_trace as read_trace
     from swtstudy.study.units.life import FatigueConstants as FatigueConstants
     from swtstudy.study.units.life import ShearConstants as ShearConstants
@@ -62,7 +62,7 @@ _HOMES = {
     "optimise": "swtstudy.results.optimise",
     "physical": "swtstudy.faces.contacts",
     "read_history": "swtstudy.faces.elements",
-    "read_signal": "swtstudy.study.signal",
+    "read_signal": "swtstudy.study.record",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.archive.run",
     "run_suite": "swtstudy.archive.run",

@@ -29,8 +29,9 @@ from swtstudy.study.keys import (
     read_study,
     under,
 )
+from swtstudy.study.record import signal_from
 from swtstudy.study.sample import ReadSample, SampleReader
-from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
+from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal
 from swtstudy.study.trace import trace_from
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes, labels_of
 from swtstudy.study.units.life import Block
