@@ -1,7 +1,7 @@
 """Cusps of the criterion along the surface line: the ends of the pieces on which it is smooth.
 
-A place has one where the edge of the contact, a slip front or the growth turns, at the edge of a face, and
-where a stick zone ends.
+A place has one where the edge of the contact, a slip front or the growth turns, at the edge of a face, where
+a stick zone ends, and at a kink of a table.
 """
 
 from math import exp, sqrt
@@ -46,6 +46,10 @@ def cusps(search, cycle, profile, load, ask, largest):
         m = put(z, m, sqrt(BEYOND[k] * BEYOND[k] * radius * radius - b * b))
     for j in range(1, min(int(largest / profile.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
         m = put(z, m, j * profile.longest)
+    for k in range(profile.kinks):  # logarithmic peaks of the pressure
+        if profile.kink[k, 1] < largest:
+            for e in range(3):
+                m = put(z, m, profile.kink[k, e])
     for k in range(cycle.stretches):
         for e in range(2):
             for G in (cycle.edge[k, e], cycle.front[k, e]):

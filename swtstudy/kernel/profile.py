@@ -18,7 +18,7 @@ DEPTH, FORCE = 0, 1
 #: Line load N at the mean load, in E* δ0.
 MEAN_LOAD = 0.25 * pi
 
-MAX_PANELS = 1021
+MAX_PANELS, MAX_KINKS = 1021, 16
 PROFILE = np.dtype(
     [
         ("is_hertz", "i8"),  # 1: paraboloid or cylinder, whose functionals have closed forms
@@ -32,6 +32,8 @@ PROFILE = np.dtype(
         ("unit", "f8"),  # coordinate in the units of the density where it is 1
         ("longest", "f8"),  # longest piece over which the profile is smooth
         ("left_out", "f8"),  # relative error of s by what of the profile is left out
+        ("kinks", "i8"),  # where the slope changes within a few rows of a table
+        ("kink", "f8", (MAX_KINKS, 3)),  # s at its begin, in its middle, at its end
         ("rises", "i8", (2,)),  # near s = 0 the density is as s^j, and the coordinate as sʲ
         *fields("f8", "begin end", (MAX_PANELS,)),  # ends of the panels in s
         ("density", "f8", (MAX_PANELS, ORDER)),  # dG/ds

@@ -6,7 +6,7 @@ from math import atan2, sqrt
 import numpy as np
 
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.profile import MEAN_LOAD, PROFILE, tabulate_profile
+from swtstudy.kernel.profile import MAX_KINKS, MEAN_LOAD, PROFILE, tabulate_profile
 from swtstudy.vocabulary.choices import family_of, is_plane
 from swtstudy.vocabulary.families import FORMS, power_law
 
@@ -29,6 +29,9 @@ CHANGED_BY_SLOPE = 4.0
 NEAR_AXIS = 1e-6
 #: Panels of a table over its length, at first; the narrowest; and how far it is continued beyond its end.
 TABLE_PANELS, TABLE_NARROWEST, TABLE_BEYOND = 8, 1e-3, 1.05
+#: A kink of a table changes the slope by this share of it at least, within this share of the table's length
+#: at most. Its peak of the pressure is within so many widths of it, and no other kink nearer than so many.
+KINKED, KINK_WIDEST, KINK_REACH, KINKS_APART = 0.01, 1.0 / 128.0, 2.0, 6.0
 
 
 def profile_record(profile, shape, in_force, largest, rtol):
@@ -144,7 +147,51 @@ def _of_table(table, in_force, largest, rtol):
     if tolerance > PROFILE_SHARE * rtol:
         missed = max(missed, tolerance)
     record["left_out"] = CHANGED_BY_SLOPE * missed
+    kinks = kinks_of(fit, np.hypot(record["end"][record["panels"] - 1], b))
+    record["kinks"] = len(kinks)
+    record["kink"][: len(kinks)] = np.sqrt((kinks - b) * (kinks + b))
     return record
+
+
+def kinks_of(fit, reach):
+    """Where the slope of a table changes within a few rows, `MAX_KINKS` places at most, the sharpest first.
+
+    The change within a width w, beyond that of the slope's trend over four times as much, is as large for 2w
+    at a kink. On a smooth curve it grows like w³.
+
+    Parameters
+    ----------
+    fit
+        The spline f, a `scipy.interpolate.PPoly`.
+    reach
+        Radius up to which it matters.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (k, 3): radii of the begin, the middle and the end of each.
+    """
+    slope, begin, end = fit.derivative(), fit.x[0], fit.x[-1]
+    knots = np.unique(fit.x)
+    r, w = knots[1:-1], np.maximum(np.diff(knots)[1:], np.diff(knots)[:-1])
+    found, share = np.zeros(len(r)), np.zeros(len(r))
+    while True:
+        open_ = (found == 0.0) & (8.0 * w <= np.minimum(r - begin, end - r)) & (w <= KINK_WIDEST * end)
+        if not open_.any():
+            break
+        at, width = r[open_], w[open_]
+        change = [slope(at + k * width) - slope(at - k * width) for k in (1.0, 2.0, 4.0, 8.0)]
+        kink, wider = np.abs(change[0] - 0.25 * change[2]), np.abs(change[1] - 0.25 * change[3])
+        sharp = kink / np.maximum(np.abs(slope(at)), SMALLEST)
+        is_kink = (sharp > KINKED) & (kink >= 0.5 * wider)
+        found[open_], share[open_] = np.where(is_kink, width, 0.0), sharp
+        w = 2.0 * w
+    kinks, candidates = [], np.flatnonzero((found > 0.0) & (r < reach))
+    for k in candidates[np.argsort(-share[candidates])]:
+        apart = all(abs(r[k] - r[j]) > KINKS_APART * max(found[k], found[j]) for j in kinks)
+        if apart and len(kinks) < MAX_KINKS:
+            kinks.append(k)
+    return r[kinks, None] + KINK_REACH * found[kinks, None] * np.array([-1.0, 0.0, 1.0])
 
 
 @jit

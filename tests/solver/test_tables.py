@@ -138,3 +138,61 @@ def test_a_faced_table_agrees_with_its_built_in_twin(
     twin = swtstudy.solve(rtol=1e-5, profile=name, flat_radius=face, **given)
     found = swtstudy.solve(rtol=1e-5, profile=table, **given)
     assert float(found.s) == pytest.approx(float(twin.s), rel=5e-4 if sharp else 2e-5)
+
+
+def kinked(rows: int, kink: float, geometry: str = "axisymmetric") -> TabulatedProfile:
+    """A paraboloid, or a cylinder, whose slope rises by the kink at r = 0.6."""
+    r = np.linspace(0.0, 3.0, rows)
+    return TabulatedProfile("kinked", r, r * r + kink * np.maximum(r - 0.6, 0.0), geometry=geometry)
+
+
+#: s at the place of the maximum by `oracles.line.Line.stress`.
+BESIDE_A_KINK = [
+    ({"normal_amplitude": 0.7, "tangential_amplitude": 0.02, "phase": 1.5}, 0.1357617),
+    ({"normal_amplitude": 0.5, "tangential_amplitude": 0.005, "phase": 0.0}, 0.0309130),
+    ({"normal_amplitude": 0.7, "tangential_amplitude": 0.02, "phase": 3.0}, 0.0687762),
+    (
+        {
+            "normal_amplitude": 0.5521182383810957,
+            "tangential_amplitude": 0.019799361464862022,
+            "phase": 4.712387497123581,
+            "frequency_ratio": "1/4",
+            "poisson_ratio": 0.0,
+            "friction": 0.012129710167299315,
+        },
+        0.1404911,
+    ),
+]
+
+
+@pytest.mark.parametrize(("given", "expected"), BESIDE_A_KINK)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+def test_a_peak_of_the_pressure_at_a_kink_is_seen(
+    given: dict[str, float], expected: float, rtol: float
+) -> None:
+    found = swtstudy.solve(profile=kinked(1500, 0.5), rtol=rtol, **given)
+    assert float(found.s) == pytest.approx(expected, rel=rtol + 5e-6)
+    assert abs(float(found.s) - expected) <= float(found.s_error) + 5e-6 * expected
+
+
+@pytest.mark.parametrize(
+    ("rows", "kink", "geometry"),
+    [
+        (400, 0.5, "axisymmetric"),
+        (1500, 0.1, "plane"),
+        (1500, 0.1, "axisymmetric"),
+        (5000, 0.5, "axisymmetric"),
+    ],
+)
+def test_s_beside_a_kink_is_the_same_at_every_tolerance(rows: int, kink: float, geometry: str) -> None:
+    rng, profile = np.random.default_rng(rows), kinked(rows, kink, geometry)
+    kind = "force_amplitude" if geometry == "plane" else "amplitude"
+    for _ in range(6):
+        given = {
+            "friction": 10.0 ** rng.uniform(-2.0, -0.5),
+            "phase": rng.uniform(0.0, 6.28),
+            f"normal_{kind}": rng.uniform(0.3, 0.95),
+            f"tangential_{kind}": 10.0 ** rng.uniform(-3.0, -0.5),
+        }
+        rough, fine = (swtstudy.solve(profile=profile, rtol=rtol, **given) for rtol in (1e-4, 1e-6))
+        assert abs(float(rough.s) - float(fine.s)) <= float(rough.s_error) + float(fine.s_error)
