@@ -10,7 +10,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.criterion import lift, stress_of, value_of
-from swtstudy.kernel.history import sample_cycle, write_stress
+from swtstudy.kernel.history import largest_pressure, sample_cycle, write_stress
 from swtstudy.kernel.parts import COARSEST, refine_marked
 from swtstudy.kernel.planes import (
     BETWEEN,
@@ -66,6 +66,7 @@ def evaluate(search, point, place, plus, minus):
             search.best, search.place, search.sign, search.angle = swt, place, sign, angle
             find_peaks(history, curves, ask, cos(angle), sin(angle))
             search.tension = stress_of(ask, curves.top[STRESS], curves.top[SWING] + curves.top[MINUS_SWING])
+            search.pressure = largest_pressure(history)
 
 
 @jit

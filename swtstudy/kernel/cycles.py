@@ -19,7 +19,7 @@ from swtstudy.kernel.count import count_cycles, follow, rank_parts
 from swtstudy.kernel.criterion import SWT, far_field, lifted, sensitivities, swing_weights, value_of
 from swtstudy.kernel.cusps import cusps, ends_group
 from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.history import sample_cycle, write_stress
+from swtstudy.kernel.history import largest_pressure, sample_cycle, write_stress
 from swtstudy.kernel.load import bulk_at
 from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, MAX_PARTS, ROOM, refine
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
@@ -270,7 +270,8 @@ def count_home(counting, point, x, angle, largest):
         swing = curves.top[SWING] + curves.top[MINUS_SWING]
         value = value_of(ask, lifted(ask, curves.top[STRESS], swing, 0.0))
         if value > 0.0:  # as for s itself: what grew is told to a share of the tension
-            needed = ask.growth * tension_share(cycle, ask, min(curves.top[STRESS], 0.5 * swing))
+            tension, pressure = min(curves.top[STRESS], 0.5 * swing), largest_pressure(history)
+            needed = ask.growth * tension_share(cycle, ask, tension, pressure)
         if tolerance > asked or growth.panels == 0 or needed >= 0.5 * tolerance or tolerance <= FINEST_GROWTH:
             break
         asked = max(0.5 * needed, FINEST_GROWTH)

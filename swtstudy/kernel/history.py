@@ -169,6 +169,15 @@ def write_stress(point):
 
 
 @jit
+def largest_pressure(history):
+    """The largest pressure at the instants of a history."""
+    most = 0.0
+    for i in range(history.instants):
+        most = max(most, history.p[i])
+    return most
+
+
+@jit
 def begin_history(point, place, largest, side):
     """Prepare a history at place s of the line, still without an instant; parameters as of `sample_cycle`."""
     profile, history = point.profile, point.history

@@ -49,6 +49,7 @@ SEARCH = np.dtype(
         ("crowd", "f8"),  # length over which many cusps are spread; 0 if there are few
         *fields("f8", "best place sign angle"),  # the largest value, its place s, the sign of x, and 2θ
         ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
+        ("pressure", "f8"),  # the largest one there
         ("value", "f8", (2,)),  # at the last position, on both sides
         ("seen", "f8", (MAX_SEEN,)),  # places of the positions, in the order of the search
         *fields("f8", "seen_value seen_angle", (MAX_SEEN, 2)),  # values and 2θ there; -1 where not asked for
@@ -248,7 +249,7 @@ def begin_search(search, point):
     search.smallest, search.largest = place_of(profile, cycle.smallest), place_of(profile, cycle.largest)
     search.last = cusps(search, cycle, profile, load, ask, search.largest) - 1
     search.best, search.place, search.sign, search.angle, search.tension = 0.0, 0.0, 1.0, 0.0, 0.0
-    search.positions, search.singular = 0, profile.singular
+    search.pressure, search.positions, search.singular = 0.0, 0, profile.singular
     first_intervals(search, point)
 
 

@@ -1,6 +1,6 @@
 """One parameter point from the load to s, and many points in one compiled call."""
 
-from math import nan, sqrt
+from math import nan, pi, sqrt
 
 import numpy as np
 
@@ -100,9 +100,12 @@ def is_idle(cycle, load, profile, ask):
 
 
 @jit
-def tension_share(cycle, ask, tension):
-    """Tension over the largest stress that slip can make, μ times the pressure; 1 at most, or without."""
-    largest = ask.friction * sqrt(cycle.largest)
+def tension_share(cycle, ask, tension, pressure):
+    """Tension over the largest stress that slip can make, μ times the pressure; 1 at most, or without.
+
+    The largest pressure at the place counts where it is above that of a sphere, 2/π √depth: at a face's edge.
+    """
+    largest = ask.friction * max(sqrt(cycle.largest), 0.5 * pi * pressure)
     return tension / largest if 0.0 < tension < largest else 1.0
 
 
@@ -151,10 +154,10 @@ def solve_point(search, point, out):
         coarse = tolerance if tolerance > out.growth else 0.0
         fine_enough = coarse > 0.0 or growth.panels == 0 or tolerance <= FINEST_GROWTH
         begin_search(search, point)
-        needed = ask.growth * tension_share(cycle, ask, search.tension)
+        needed = ask.growth * tension_share(cycle, ask, search.tension, search.pressure)
         if fine_enough or needed >= 0.5 * tolerance:
             gap = search_line(search, point)
-            needed = ask.growth * tension_share(cycle, ask, search.tension)
+            needed = ask.growth * tension_share(cycle, ask, search.tension, search.pressure)
         if fine_enough or needed >= 0.5 * tolerance:
             break
         tolerance = max(0.5 * needed, FINEST_GROWTH)
@@ -164,7 +167,7 @@ def solve_point(search, point, out):
         out.s_error = gap + NOISE * cycle.largest
     else:
         rounding = rounding_share(cycle, profile, ask, search.place, search.tension)
-        rounding += coarse / tension_share(cycle, ask, search.tension)
+        rounding += coarse / tension_share(cycle, ask, search.tension, search.pressure)
         out.s_error = gap + (ask.time + rounding + profile.left_out) * search.best
         x = sqrt(profile.flat_radius * profile.flat_radius + search.place * abs(search.place))
         out.critical_x = search.sign * x + 0.0  # no -0 at the centre

@@ -101,3 +101,43 @@ def test_at_half_no_strain_swings_with_the_pressure_alone() -> None:
     found = solve_points(replace(pulled(0.05), poisson_ratio=np.array([0.5])))
     assert regime_names(found) == ["lift_off"]
     assert found.s[0] == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("flat_radius", "normal", "tangential", "expected"),
+    # s at the place of the maximum by `oracles.line.Line.stress`; of the last one at the rtol 1e-6.
+    [
+        (10.0, 0.99, 1e-4, 1.7586978),
+        (3.0, 0.99, 1e-5, 0.0530112),
+        (2.0, 0.999, 1e-5, 0.0933180),
+        (100.0, 0.99, 1e-4, 176.35208),
+    ],
+)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+def test_small_motions_of_a_nearly_unloaded_face(
+    flat_radius: float, normal: float, tangential: float, expected: float, rtol: float
+) -> None:
+    """The pressure beside the edge is much higher than the tension: what grew has to be known to less."""
+    given = points(
+        "truncated_paraboloid", 0.3, 0.3, normal, tangential, 1.0, p=1, q=2, flat_radius=flat_radius
+    )
+    found = solve_points(given, rtol)
+    assert found.s[0] == pytest.approx(expected, abs=found.s_error[0] + 2e-6 * expected)
+
+
+def test_the_error_covers_small_motions_of_nearly_unloaded_faces() -> None:
+    rng = np.random.default_rng(3)
+    for q in (2, 3, 4, 5) * 4:
+        given = points(
+            "truncated_paraboloid",
+            rng.uniform(0.1, 0.45),
+            10.0 ** rng.uniform(-1.7, -0.2),
+            1.0 - 10.0 ** rng.uniform(-3.0, -0.5),
+            10.0 ** rng.uniform(-6.0, -2.0),
+            rng.uniform(0.0, 6.28),
+            p=1,
+            q=q,
+            flat_radius=10.0 ** rng.uniform(-0.3, 1.3),
+        )
+        rough, fine = solve_points(given, 1e-4), solve_points(given, 1e-6)
+        assert abs(rough.s[0] - fine.s[0]) <= rough.s_error[0] + fine.s_error[0]
