@@ -22,7 +22,7 @@ CASES = {
     "wavy paraboloid": points("wavy_paraboloid", waviness_amplitude=0.01, wavelength=5.0, phase=PSI),
     "random": random_points(5, 3, "paraboloid"),
 }
-VERSION = "40"
+VERSION = "41"
 VALUES: dict[str, list[float]] = {
     "paraboloid": [0.1551365493323, 0.1476110272643, 0.1487882209774],
     "long cycle": [0.1702053363658, 0.1635234887289, 0.1376035913666],
