@@ -28,17 +28,10 @@ from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE
 from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS, REPETITIONS
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, DISTANCE, FAILED, NOTHING, STATES, has_units
-from swtstudy.vocabulary.wording import (
-    coordinate_words,
-    listed,
-    number_of,
-    number_words,
-    numbers_words,
-    with_rad,
-)
+from swtstudy.vocabulary.wording import line_words, listed, number_of, number_words, numbers_words
 
 #: Sizes of contacts at rest that tell a wrong unit at a glance, and their kinds.
-AT_REST = {"normal_force": "force", "contact_radius": "length", "peak_pressure": "stress"}
+TOLD_AT_REST = {"normal_force": "force", "contact_radius": "length", "peak_pressure": "stress"}
 #: Lives over more critical distances are a range.
 _DISTANCES = 3
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -209,7 +202,7 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def rest_words(sizes: Mapping[Any, xr.DataArray]) -> str:
     """Sizes of real contacts at rest, by name as in results, in words; empty without units."""
     said = []
-    for name in AT_REST if all(name in sizes for name in AT_REST) else ():
+    for name in TOLD_AT_REST if all(name in sizes for name in TOLD_AT_REST) else ():
         ends = numbers_words([float(sizes[name].min()), float(sizes[name].max())])
         said.append(f"{name} {' to '.join(dict.fromkeys(ends))}{unit_of(sizes[name])}")
     return ", ".join(said)
@@ -254,7 +247,7 @@ def _counted_words(dataset: xr.Dataset) -> str:
 
 
 def _words(value: xr.DataArray) -> str:
-    return with_rad(coordinate_words(str(value.name), value.item(), value.attrs), value.attrs)
+    return line_words(str(value.name), value.item(), value.attrs)
 
 
 def _axis_words(axis: xr.DataArray) -> str:

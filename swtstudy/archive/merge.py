@@ -23,7 +23,7 @@ from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, MISSING, Request, error_of
-from swtstudy.vocabulary.wording import unit_words, value_words, with_rad
+from swtstudy.vocabulary.wording import line_words, unit_words
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12
@@ -96,8 +96,7 @@ def _place_of(row: Table, grid: Grid, points: Distinct) -> str:
     for name in (each for each in grid.names if grid.dimension(each)):
         value: Any = grid.values(name)[at[str(grid.dimension(name))]]
         unit = grid.row(name).units
-        said = with_rad(value_words(name, value, {"units": unit}), {"units": unit})
-        words.append(f"{name} = {said}{unit_words(unit)}")
+        words.append(f"{name} = {line_words(name, value, {'units': unit})}{unit_words(unit)}")
     return ", ".join(words) or "the point"
 
 

@@ -156,14 +156,14 @@ def rest_of(grid: Grid) -> str:
     """Sizes of real contacts at rest, in words; empty without units, and for very many contacts."""
     import xarray as xr
 
-    from swtstudy.archive.describe import AT_REST, rest_words
+    from swtstudy.archive.describe import TOLD_AT_REST, rest_words
     from swtstudy.study.units.grid import PhysicalGrid
 
     if not isinstance(grid, PhysicalGrid) or grid.at_rest.size > MOST_CONTACTS:
         return ""
-    found = {name: grid.each(attrgetter(name)) for name in AT_REST}
-    units = {name: {"units": grid.labels.label(kind)} for name, kind in AT_REST.items()}
-    return rest_words({name: xr.DataArray(found[name], attrs=units[name]) for name in AT_REST})
+    found = {name: grid.each(attrgetter(name)) for name in TOLD_AT_REST}
+    units = {name: {"units": grid.labels.label(kind)} for name, kind in TOLD_AT_REST.items()}
+    return rest_words({name: xr.DataArray(found[name], attrs=units[name]) for name in TOLD_AT_REST})
 
 
 @click.command("list")

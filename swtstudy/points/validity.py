@@ -15,7 +15,7 @@ from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.mistakes import plain
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.quantities import COMPUTED, ZONES, has_units, require
-from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, with_rad
+from swtstudy.vocabulary.wording import line_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -325,7 +325,7 @@ def index_words(dataset: xr.Dataset, place: Mapping[str, int]) -> str:
         names = dataset.indexes[dim].names if dim in dataset.indexes else ()
         for name in map(str, names):
             value: Any = plain(dataset[name].values[number])
-            named = with_rad(coordinate_words(name, value, dataset[name].attrs), dataset[name].attrs)
+            named = line_words(name, value, dataset[name].attrs)
             words.append(f"{name} = {named}{unit_of(dataset[name])}")
         if not names:
             words.append(f"{dim} = {number}")

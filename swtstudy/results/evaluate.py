@@ -21,7 +21,7 @@ from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import AXES, short
 from swtstudy.vocabulary.quantities import COMPUTED, COUNTED, error_of
-from swtstudy.vocabulary.wording import coordinate_words, with_rad
+from swtstudy.vocabulary.wording import line_words
 
 #: Values of an axis that a message lists one by one; of longer axes the first and the last.
 _LISTED = 12
@@ -95,7 +95,7 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
 
 def _listed(there: xr.DataArray) -> str:
     values = np.atleast_1d(there.values).tolist()
-    words = [with_rad(coordinate_words(str(there.name), value, there.attrs), there.attrs) for value in values]
+    words = [line_words(str(there.name), value, there.attrs) for value in values]
     if len(words) > _LISTED:
         words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
     return ", ".join(words)

@@ -91,9 +91,9 @@ def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mista
         settled = f"; scale = {{ {name} = 1 }} says so" * table.has_keys
         words = f"the unit {strange} of {column} is not known: it is read as {label}{settled}"
         warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=5)
-    if own_kind != kind and way and own is not None:
-        return []
     if own_kind != kind:
+        if way and own is not None:
+            return []
         found = f"{column} in {unit} as {name}, which is {_one(kind)}"
         allowed = f"a column with {_one(kind)}, not {_one(own_kind)}, "
         allowed += f"or scale = {{ {name} = … }}, {way}" if way and table.has_keys else "whatever its scale"

@@ -19,6 +19,8 @@ FEWEST_CYCLES = 3
 FEWEST_SAMPLES, FEWEST_IN_CYCLE = 16, 4
 #: Correlation of a repeating record with itself one cycle later, and of a column that is noise at most.
 REPEATS, NOISE = 0.9, 0.5
+#: Median of the distances of normal numbers from their mean, over their standard deviation.
+MEDIAN = 0.6745
 #: Quantiles to which samples are cut before.
 TRIMMED = (0.005, 0.995)
 
@@ -157,7 +159,7 @@ def white_noise(cycles: FloatArray) -> FloatArray:
     if cycles.shape[1] < FEWEST_SMOOTH:
         return np.zeros(cycles.shape[2])
     third = np.diff(np.concatenate([cycles, cycles[:, :3]], axis=1), 3, axis=1)
-    return np.asarray(np.median(np.abs(third), axis=(0, 1)) / (0.6745 * np.sqrt(20.0)))
+    return np.asarray(np.median(np.abs(third), axis=(0, 1)) / (MEDIAN * np.sqrt(20.0)))
 
 
 def raised_by(share: FloatArray, count: int) -> FloatArray:

@@ -89,7 +89,7 @@ def doubts_of(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[st
         yield f"{found}: {left}"
         if not out:
             return
-    if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
+    if len(values) > 2 and signal.used == len(values) and np.array_equal(values[0], values[-1]):
         yield "the last sample is the first again: leave it out if closed"
     if key == "recorded_cycles" and unsaid and (times := cycles.repeats(signal.time, values)):
         if abs(times - round(times)) < 0.01 * times:
@@ -109,7 +109,7 @@ def doubts_of(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[st
         yield f"{found}: is that the end of a load cell's range? Then the load is higher"
     yield from _on_stick_zone(signal)
     different = [*_differences(signal, key, kept)]
-    yield from different or _losses(signal)
+    yield from different or (_left_out(signal) if signal.highest else _cut_off(signal))
 
 
 def _on_stick_zone(signal: Signal) -> Iterator[str]:
@@ -162,48 +162,48 @@ def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
         yield f"{found}, and {load}: {out}"
 
 
-def _losses(signal: Signal) -> Iterator[str]:
-    """Lines on what straight lines between samples cut off, and on what harmonics leave out."""
-    if signal.highest:
-        values = signal.values[: signal._used]
-        left = cycles.beside(values, signal.fit)
-        range_left = _range_left_out(signal)
-        if left.max() > LEFT_OUT:
-            k = int(left.argmax())
-            out, moves = cycles.structure(values - signal.fit)[k], values[:, k].std()
-            found = f"harmonics = {signal.highest} leaves out {out:.3g} of the {NAMES[k]} load, which moves"
-            yield f"{found} by {moves:.3g} (standard deviations): more harmonics, or none"
-        elif (most := np.abs(range_left).max()) > CUT_OFF:
-            k = int(np.abs(range_left).argmax())
-            change = "takes {:.1%} off" if range_left[k] > 0.0 else "adds {:.1%} to"
-            found = f"harmonics = {signal.highest} {change.format(most)} the range of the {NAMES[k]} load"
-            yield f"{found}: more harmonics, or none, as for a load with corners"
+def _left_out(signal: Signal) -> Iterator[str]:
+    """A line on what harmonics leave out, or add."""
+    values = signal.values[: signal.used]
+    left = cycles.beside(values, signal.fit)
+    if left.max() > LEFT_OUT:
+        k = int(left.argmax())
+        out, moves = cycles.structure(values - signal.fit)[k], values[:, k].std()
+        found = f"harmonics = {signal.highest} leaves out {out:.3g} of the {NAMES[k]} load, which moves"
+        yield f"{found} by {moves:.3g} (standard deviations): more harmonics, or none"
         return
-    samples, mean = signal.period / signal.step, signal.mean_cycle
+    range_left = _range_left_out(signal)
+    k = int(np.abs(range_left).argmax())
+    if (most := abs(range_left[k])) > CUT_OFF:
+        change = "takes {:.1%} off" if range_left[k] > 0.0 else "adds {:.1%} to"
+        found = f"harmonics = {signal.highest} {change.format(most)} the range of the {NAMES[k]} load"
+        yield f"{found}: more harmonics, or none, as for a load with corners"
+
+
+def _cut_off(signal: Signal) -> Iterator[str]:
+    """A line on what straight lines between samples cut off, or on noise that raises tips."""
+    samples, mean, count = signal.period / signal.step, signal.mean_cycle, len(signal.cycles)
     moving = np.flatnonzero(mean.std(axis=0) > cycles.noise_of_mean(signal.cycles))
     places = signal.phase / (2.0 * np.pi) * len(mean)
     off, order = cycles.cut_off(mean[:, moving], samples)
     tips, corner = cycles.cut_tips(mean[:, moving])
-    white, scatter = (
-        each / np.sqrt(len(signal.cycles)) for each in (cycles.white_noise(signal.cycles), signal.scatter)
-    )
-    noise = np.fmax(white, scatter)
-    phases = ", at other phases in each"
-    if signal._is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
+    white = cycles.white_noise(signal.cycles) / np.sqrt(count)
+    noise, phases = np.fmax(white, signal.scatter / np.sqrt(count)), ", at other phases in each"
+    if signal.is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
         off, phases = tips * (tips * np.ptp(mean[:, moving], axis=0) > OF_NOISE * noise[moving]), ""
     if (most := off.max(initial=0.0)) > CUT_OFF:
         k = int(off.argmax())
         found = f"{samples:.4g} samples a cycle{phases}: straight lines between them take"
-        way = (
-            f"harmonics = {order} takes nothing off" if order <= HIGHEST_ORDER else "more samples are needed"
-        )
-        way = "more samples are needed, or vertices = its corners" if corner[k] else way
+        way = "more samples are needed"
+        if corner[k]:
+            way += ", or vertices = its corners"
+        elif order <= HIGHEST_ORDER:
+            way = f"harmonics = {order} takes nothing off"
         yield f"{found} {most:.1%} off the {NAMES[moving[k]]} load; {way}"
         return
     size = np.append(np.abs(mean[:, 0]).max(), 0.5 * np.ptp(mean[:, 1:], axis=0))
-    raised = cycles.raised_by(white / np.maximum(size, cycles.TINY), len(mean)) * (
-        mean.std(axis=0) > 2.0 * white
-    )
+    raised = cycles.raised_by(white / np.maximum(size, cycles.TINY), len(mean))
+    raised *= mean.std(axis=0) > 2.0 * white
     if (most := raised.max()) > RAISED:
         k = int(raised.argmax())
         found = f"noise of {white[k]:.2g} raises the tips of the {NAMES[k]} load by some {most:.1%}"
@@ -216,7 +216,8 @@ def _range_left_out(signal: Signal) -> FloatArray:
     The range is that of as many harmonics as the samples determine beside their noise.
     """
     phase, found = signal.phase[:MOST_FITTED], np.zeros(signal.values.shape[1])
-    orders = (order for order in (64, 32, 16, 8) if signal.highest < order <= len(phase) // 3)
+    orders = (HIGHEST_ORDER // part for part in (1, 2, 4, 8))
+    orders = (order for order in orders if signal.highest < order <= len(phase) // 3)
     highest = next((order for order in orders if cycles.determined(phase, order)), 0)
     if not highest:
         return found

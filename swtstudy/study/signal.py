@@ -82,7 +82,7 @@ class Signal:
     @cached_property
     def cycles(self) -> FloatArray:
         """The cycles without a gap at even phases, shape (c, m, d); a single one at its own samples."""
-        if self._is_one_cycle:
+        if self.is_one_cycle:
             return self.values[None]
         return cycles.folded(self.time, self.values, self.period, self.known)
 
@@ -102,7 +102,7 @@ class Signal:
         if self.count < 2:
             return np.zeros(self.values.shape[1])
         load = cycles.repeated(self.time, self.period, self.mean_cycle)
-        return cycles.beside(self.values[: self._used], load[: self._used])
+        return cycles.beside(self.values[: self.used], load[: self.used])
 
     @cached_property
     def mean_normal(self) -> float | None:
@@ -117,7 +117,7 @@ class Signal:
             return None
         if self.highest:
             mean = float(self._fits[0][0][0, 1])
-        elif self._is_one_cycle:
+        elif self.is_one_cycle:
             # Over the time, by straight lines: the samples need not be even.
             at = np.append(self.time, self.time[0] + self.period)
             sums = self.values[:, 0] + np.roll(self.values[:, 0], -1)
@@ -183,7 +183,7 @@ class Signal:
         """Root mean square of what the harmonics leave out of the samples, by column; 0 without them."""
         if not self.highest:
             return np.zeros(self.values.shape[1])
-        return np.asarray(np.sqrt(np.mean((self.values[: self._used] - self.fit) ** 2, axis=0)))
+        return np.asarray(np.sqrt(np.mean((self.values[: self.used] - self.fit) ** 2, axis=0)))
 
     @property
     def words(self) -> str:
@@ -213,24 +213,24 @@ class Signal:
         return np.stack([fit for _, fit in self._fits], axis=1)
 
     @property
-    def _used(self) -> int:
+    def used(self) -> int:
         """Samples within the whole cycles."""
         end = self.time[0] + self.count * self.period
         return int(np.searchsorted(self.time, end - ROUNDING * self.period))
 
     @property
-    def _is_one_cycle(self) -> bool:
+    def is_one_cycle(self) -> bool:
         """True if all samples are one cycle, which keeps them as they are."""
-        return self.count == 1 and self._used == len(self.time)
+        return self.count == 1 and self.used == len(self.time)
 
     @property
     def phase(self) -> FloatArray:
         """φ of each sample within the whole cycles, rad, from 0 on."""
-        return 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
+        return 2.0 * np.pi * (self.time[: self.used] - self.time[0]) / self.period
 
     @cached_property
     def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
-        return [cycles.harmonics(self.phase, column, self.highest) for column in self.values[: self._used].T]
+        return [cycles.harmonics(self.phase, column, self.highest) for column in self.values[: self.used].T]
 
     def _polygon(self, name: str, cycle: FloatArray) -> LoadPath:
         off = np.eye(1, cycle.shape[1]) * (self.mean_normal or 0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.study.cycles import FEWEST_CYCLES, FEWEST_SAMPLES, folded, repeated, step_of
+from swtstudy.study.cycles import FEWEST_CYCLES, FEWEST_SAMPLES, MEDIAN, folded, repeated, step_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 
 #: A spike stands out by so many standard deviations, and by a share of the range: of the median cycle for a
@@ -167,4 +167,4 @@ def _least_spike(off: FloatArray, share: FloatArray) -> FloatArray:
 
     The median of the deviations gives the standard deviation of normal noise, whatever the spikes are.
     """
-    return np.maximum(SPIKE * np.median(off, axis=0) / 0.6745, share)
+    return np.maximum(SPIKE * np.median(off, axis=0) / MEDIAN, share)

@@ -13,6 +13,7 @@ import numpy as np
 
 from swtstudy.solver.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import read_columns
+from swtstudy.study.cycles import MEDIAN
 from swtstudy.study.keys import TraceTable, with_keys
 from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
@@ -357,7 +358,7 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolAr
     if not known.any():
         return np.zeros(len(position), bool)
     missed, floor = float(np.quantile(_missed(*_merged(position, height)), 1.0 - DUST)), 1e-6 * np.ptp(height)
-    limits = [OUTLIER * max(float(np.median(np.abs(v[known]))) / 0.6745, floor) for v in (residual, differs)]
+    limits = [OUTLIER * max(float(np.median(np.abs(v[known]))) / MEDIAN, floor) for v in (residual, differs)]
     out = known & (np.abs(residual) > limits[0]) & (np.abs(differs) > limits[1] + missed)
     # The one of two opposite samples that is nearer to the spline is sound.
     out &= np.abs(residual) >= 0.5 * np.abs(differs)

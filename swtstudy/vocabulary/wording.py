@@ -234,6 +234,11 @@ def with_rad(words: str, attributes: Mapping[Any, Any]) -> str:
     return f"{words} rad" if plain else words
 
 
+def line_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """`coordinate_words` with the unit of an angle, for a line without labels of units."""
+    return with_rad(coordinate_words(name, value, attributes), attributes)
+
+
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
     """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
 
